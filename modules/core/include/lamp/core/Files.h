@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace lamp {
+
+/** Calls `write` with a temporary path in the same folder and renames the result to `path`, so that
+ * a killed run leaves no half file. \throws std::runtime_error naming the path; what `write` throws
+ * goes through, and the temporary file is removed. */
+void writeAtomically(const std::string& path, const std::function<void(const std::string&)>& write);
+
+/** Writes text with writeAtomically(). */
+void writeTextFile(const std::string& path, const std::string& text);
+
+/** \throws std::runtime_error naming the path. */
+std::string readTextFile(const std::string& path);
+
+}  // namespace lamp

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lamp/core/Geometry.h"
+#include "lamp/core/Ids.h"
+
+namespace lamp {
+
+/** A pair of key nodes that may see the same place. `from` is the older one, the target of the
+ * registration; `to` the newer one, its source. */
+struct LoopClosureCandidate {
+  KeyframeId from, to;
+  std::string generator;  ///< the stage that proposed it
+  double priority = 0;    ///< set by the prioritizer; larger is sooner
+};
+
+/** A relative pose to start from, with what the graph knows of its error. */
+struct Guess {
+  Pose3 target_T_source = Pose3::Identity();
+  std::optional<Matrix6d> covariance;
+};
+
+/** One named figure of a decision, with its threshold where it has one, for the ledger. */
+struct Score {
+  std::string name;
+  double value = 0;
+  std::optional<double> threshold;
+};
+
+}  // namespace lamp

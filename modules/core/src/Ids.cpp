@@ -1,0 +1,90 @@
+#include "lamp/core/Ids.h"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+namespace lamp {
+
+namespace {
+
+bool isNameCharacter(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+}
+
+constexpr int kSymbolLetterShift = 56;
+
+}  // namespace
+
+RobotId RobotTable::add(const std::string& name, char letter) {
+  if (name.empty() || !std::all_of(name.begin(), name.end(), isNameCharacter))
+    throw std::runtime_error("robot name '" + name + "': use letters, digits, '_' and '-' only");
+  if (find(name)) throw std::runtime_error("two robots are named '" + name + "'");
+  if (letter == 0) letter = nextLetter();
+  if (letter < 'a' || letter > 'z')
+    throw std::runtime_error("robot '" + name + "': its key must be one letter a-z");
+  if (letterTaken(letter))
+    throw std::runtime_error("robot '" + name + "': the key '" + std::string(1, letter) +
+                             "' is taken by another robot");
+  robots_.push_back({name, letter});
+  return RobotId{static_cast<uint16_t>(robots_.size() - 1)};
+}
+
+std::optional<RobotId> RobotTable::find(const std::string& name) const {
+  for (size_t i = 0; i < robots_.size(); ++i)
+    if (robots_[i].name == name) return RobotId{static_cast<uint16_t>(i)};
+  return std::nullopt;
+}
+
+std::vector<RobotId> RobotTable::ids() const {
+  std::vector<RobotId> all;
+  for (size_t i = 0; i < robots_.size(); ++i) all.push_back(RobotId{static_cast<uint16_t>(i)});
+  return all;
+}
+
+bool RobotTable::letterTaken(char letter) const {
+  return std::any_of(robots_.begin(), robots_.end(),
+                     [&](const Robot& robot) { return robot.letter == letter; });
+}
+
+char RobotTable::nextLetter() const {
+  for (char c = 'a'; c <= 'z'; ++c)
+    if (c != 'u' && !letterTaken(c)) return c;
+  throw std::runtime_error("more than 25 robots: no letter is left for graph files");
+}
+
+std::string RobotTable::format(KeyframeId id) const {
+  return name(id.robot) + ":" + std::to_string(id.index);
+}
+
+KeyframeId RobotTable::parse(const std::string& text) const {
+  const size_t colon = text.rfind(':');
+  const std::string digits = colon == std::string::npos ? "" : text.substr(colon + 1);
+  const bool is_number =
+      !digits.empty() && digits.size() <= 9 &&
+      std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c); });
+  const auto robot = is_number ? find(text.substr(0, colon)) : std::nullopt;
+  if (!robot) throw std::runtime_error("'" + text + "' is no key node of a known robot");
+  return {*robot, static_cast<uint32_t>(std::stoul(digits))};
+}
+
+uint64_t RobotTable::symbol(KeyframeId id) const {
+  return (static_cast<uint64_t>(letter(id.robot)) << kSymbolLetterShift) | id.index;
+}
+
+KeyframeId RobotTable::fromSymbol(uint64_t symbol) const {
+  const char letter = static_cast<char>(symbol >> kSymbolLetterShift);
+  for (size_t i = 0; i < robots_.size(); ++i)
+    if (robots_[i].letter == letter)
+      return {RobotId{static_cast<uint16_t>(i)}, static_cast<uint32_t>(symbol)};
+  throw std::runtime_error("symbol " + std::to_string(symbol) + " is of no known robot");
+}
+
+std::string robotNameFromStem(const std::string& stem) {
+  std::string name = stem;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !isNameCharacter(c); }, '_');
+  return name.empty() ? "robot" : name;
+}
+
+}  // namespace lamp

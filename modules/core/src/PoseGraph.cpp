@@ -1,0 +1,155 @@
+#include "lamp/core/PoseGraph.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+
+namespace lamp {
+
+namespace {
+
+std::string describe(KeyframeId id) {
+  return std::to_string(id.robot.value) + ":" + std::to_string(id.index);
+}
+
+/** Disjoint sets with path halving. */
+class UnionFind {
+ public:
+  explicit UnionFind(size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), size_t{0});
+  }
+  size_t root(size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(size_t a, size_t b) {
+    parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
+  }
+
+ private:
+  std::vector<size_t> parent_;
+};
+
+bool isInformation(const Matrix6d& m) {
+  if (!m.allFinite()) return false;
+  const double scale = m.cwiseAbs().maxCoeff();
+  if ((m - m.transpose()).cwiseAbs().maxCoeff() > 1e-6 * scale) return false;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(m, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues().minCoeff() >= -1e-9 * scale;
+}
+
+}  // namespace
+
+const char* toString(EdgeType type) {
+  switch (type) {
+    case EdgeType::kOdometry:
+      return "odometry";
+    case EdgeType::kPrior:
+      return "prior";
+    case EdgeType::kLoopClosure:
+      return "loop_closure";
+  }
+  return "";
+}
+
+const char* toString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPending:
+      return "pending";
+    case Verdict::kInlier:
+      return "inlier";
+    case Verdict::kOutlier:
+      return "outlier";
+  }
+  return "";
+}
+
+void PoseGraph::addNode(const Node& node) {
+  if (!place_.emplace(node.id, nodes_.size()).second)
+    throw std::logic_error("pose graph: key node " + describe(node.id) + " is there already");
+  auto& of_robot = by_robot_[node.id.robot];
+  of_robot.insert(std::upper_bound(of_robot.begin(), of_robot.end(), node.id), node.id);
+  nodes_.push_back(node);
+}
+
+EdgeIndex PoseGraph::addEdge(const Edge& edge) {
+  const std::string name =
+      std::string(toString(edge.type)) + " " + describe(edge.from) + " - " + describe(edge.to);
+  if (!contains(edge.from) || !contains(edge.to))
+    throw std::logic_error("pose graph: " + name + " has an end that is not in the graph");
+  if ((edge.from == edge.to) != (edge.type == EdgeType::kPrior))
+    throw std::logic_error("pose graph: " + name + " must join two key nodes, a prior only one");
+  if (!isFinite(edge.from_T_to))
+    throw std::invalid_argument("pose graph: the measurement of " + name + " is not finite");
+  if (!isInformation(edge.information))
+    throw std::invalid_argument("pose graph: the information matrix of " + name +
+                                " is not finite, symmetric and positive semi-definite");
+  edges_.push_back(edge);
+  return edges_.size() - 1;
+}
+
+const std::vector<KeyframeId>& PoseGraph::robotNodes(RobotId robot) const {
+  static const std::vector<KeyframeId> kNone;
+  const auto found = by_robot_.find(robot);
+  return found == by_robot_.end() ? kNone : found->second;
+}
+
+std::vector<RobotId> PoseGraph::robots() const {
+  std::vector<RobotId> result;
+  for (const auto& [robot, ids] : by_robot_) result.push_back(robot);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+bool PoseGraph::shareFrame(RobotId a, RobotId b) const {
+  if (a == b) return true;
+  // Robots are few: join those that a prior ties to the world, and those that loops join.
+  std::map<RobotId, RobotId> group;
+  const auto root = [&](RobotId robot) {
+    while (group.count(robot) && group[robot] != robot) robot = group[robot];
+    return robot;
+  };
+  std::optional<RobotId> in_world;
+  for (const Edge& edge : edges_) {
+    if (edge.type == EdgeType::kPrior) {
+      if (in_world) group[root(edge.from.robot)] = root(*in_world);
+      in_world = root(edge.from.robot);
+    } else if (edge.betweenRobots() && edge.active()) {
+      group[root(edge.from.robot)] = root(edge.to.robot);
+    }
+  }
+  return root(a) == root(b);
+}
+
+bool PoseGraph::planar() const {
+  return !nodes_.empty() &&
+         std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.planar; });
+}
+
+std::vector<Component> PoseGraph::components() const {
+  UnionFind sets(nodes_.size());
+  for (const Edge& edge : edges_)
+    if (edge.type != EdgeType::kPrior && edge.active()) sets.join(place(edge.from), place(edge.to));
+
+  std::map<size_t, Component> by_root;
+  for (size_t i = 0; i < nodes_.size(); ++i) by_root[sets.root(i)].nodes.push_back(nodes_[i].id);
+
+  std::vector<Component> components;
+  for (auto& [root, component] : by_root) {
+    std::sort(component.nodes.begin(), component.nodes.end());
+    std::set<RobotId> robots;
+    for (const KeyframeId id : component.nodes) robots.insert(id.robot);
+    component.robots.assign(robots.begin(), robots.end());
+    components.push_back(std::move(component));
+  }
+  std::sort(components.begin(), components.end(), [](const Component& a, const Component& b) {
+    if (a.nodes.size() != b.nodes.size()) return a.nodes.size() > b.nodes.size();
+    return a.nodes.front() < b.nodes.front();
+  });
+  return components;
+}
+
+}  // namespace lamp

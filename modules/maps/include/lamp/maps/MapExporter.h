@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lamp/core/Geometry.h"
+#include "lamp/core/Ids.h"
+#include "lamp/core/KeyedScan.h"
+#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/PoseGraph.h"
+#include "lamp/core/Stage.h"
+
+namespace lamp {
+
+/** A key node with its keyed scan at its optimised pose. */
+struct MapKeyframe {
+  KeyframeId id;
+  double stamp = 0;
+  Pose3 world_T_base = Pose3::Identity();
+  KeyedScanPtr scan;
+};
+
+/** The optimised trajectory of one robot, one pose a lidar scan. */
+struct MapTrack {
+  RobotId robot;
+  std::vector<StampedPose> poses;
+};
+
+/** A loop closure between two key nodes of the map. */
+struct MapLoop {
+  Eigen::Vector3d from, to;  ///< world, metres
+  Verdict verdict = Verdict::kPending;
+};
+
+/** Everything that a map of one component is made of. */
+struct ComponentMap {
+  std::vector<MapKeyframe> keyframes;  ///< in KeyframeId order
+  std::vector<MapTrack> tracks;        ///< in RobotId order
+  std::vector<MapLoop> loops;
+  const RobotTable* robots = nullptr;
+};
+
+/** Turns one component into files. */
+class MapExporter : public Stage {
+  DEFINE_VIRTUAL_MRPT_OBJECT(MapExporter)
+
+ public:
+  /** Writes `<stem>.<extension>` for each of the exporter's formats.
+   *  \return the paths written. \throws std::runtime_error naming the path. */
+  virtual std::vector<std::string> exportMap(const ComponentMap& map, const std::string& stem) = 0;
+};
+
+/** Colour of a robot in maps and pictures, 0..255 each; distinct for the first eight. */
+struct Color {
+  uint8_t r = 0, g = 0, b = 0;
+};
+Color robotColor(RobotId robot);
+
+/** Registers Ply, Pcd, OctoMap and Picture. */
+void registerAllClasses_lamp_maps();
+
+}  // namespace lamp

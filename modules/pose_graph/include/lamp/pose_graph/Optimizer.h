@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lamp/core/PoseGraph.h"
+#include "lamp/core/Stage.h"
+
+namespace lamp {
+
+/** What the back end thinks of one loop closure. */
+struct LoopVerdict {
+  EdgeIndex edge = 0;
+  Verdict verdict = Verdict::kInlier;
+  double weight = 1.0;  ///< 0..1
+  double chi2 = 0.0;    ///< squared Mahalanobis residual at the solution
+};
+
+struct OptimizationReport {
+  bool usable = true;        ///< false: the poses must not be used
+  std::string termination;   ///< why the solver stopped, in words
+  int iterations = 0;        ///< inner iterations, over all outer rounds
+  int rounds = 1;            ///< outer (GNC) rounds
+  double initial_cost = 0;   ///< half the weighted sum of squared residuals
+  double final_cost = 0;
+};
+
+struct OptimizationResult {
+  std::vector<Pose3> world_T_base;  ///< in the order of PoseGraph::nodes()
+  std::vector<LoopVerdict> loops;   ///< one for each loop closure of the graph, in edge order
+  OptimizationReport report;
+};
+
+/** Poses of all key nodes and a verdict for each loop closure (paper II-D). */
+class Optimizer : public Stage {
+  DEFINE_VIRTUAL_MRPT_OBJECT(Optimizer)
+
+ public:
+  virtual OptimizationResult optimize(const PoseGraph& graph) = 0;
+};
+
+/** Writes poses, verdicts, weights and residuals of a usable result back into the graph. */
+void applyResult(const OptimizationResult& result, PoseGraph& graph);
+
+/** Registers Lm and Gnc. */
+void registerAllClasses_lamp_pose_graph();
+
+}  // namespace lamp

@@ -1,0 +1,19 @@
+#include "lamp/pose_graph/Optimizer.h"
+
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Optimizer, Stage, lamp)
+
+namespace lamp {
+
+void applyResult(const OptimizationResult& result, PoseGraph& graph) {
+  if (!result.report.usable) return;
+  for (size_t i = 0; i < result.world_T_base.size(); ++i)
+    graph.node(graph.nodes()[i].id).world_T_base = result.world_T_base[i];
+  for (const LoopVerdict& loop : result.loops) {
+    Edge& edge = graph.edges()[loop.edge];
+    edge.verdict = loop.verdict;
+    edge.weight = loop.weight;
+    edge.chi2 = loop.chi2;
+  }
+}
+
+}  // namespace lamp
