@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "lamp/core/Files.h"
@@ -100,18 +99,23 @@ std::string formatDouble(double value) {
 }
 
 std::string formatFixed(double value, int decimals) {
+  if (std::isnan(value)) return "nan";
   std::array<char, 64> buffer;
-  const int length = std::snprintf(buffer.data(), buffer.size(), "%.*f", decimals, value);
-  if (length >= static_cast<int>(buffer.size())) return formatDouble(value);
-  return {buffer.data(), static_cast<size_t>(length)};
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                          std::chars_format::fixed, decimals);
+  if (error != std::errc()) return formatDouble(value);
+  return {buffer.data(), end};
 }
 
 bool parseDouble(const std::string& text, double& value) {
   const char* begin = text.data();
   const char* end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  return error == std::errc() && stop == end && begin != end;
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') ++begin;
+  double number;
+  const auto [stop, error] = std::from_chars(begin, end, number);
+  if (error != std::errc() || stop != end) return false;
+  value = number;
+  return true;
 }
 
 }  // namespace lamp

@@ -42,7 +42,7 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
       });
   if (nearest == known.end() || editDistance(word, *nearest) > std::max<size_t>(2, word.size() / 3))
     return "";
-  return ", did you mean '" + *nearest + "'?";
+  return " (did you mean '" + *nearest + "'?)";
 }
 
 }  // namespace lamp

@@ -14,18 +14,17 @@ namespace lamp {
 void writeAtomically(const std::string& path,
                      const std::function<void(const std::string&)>& write) {
   const std::string temporary = path + ".tmp" + std::to_string(::getpid());
+  std::error_code error, ignored;
   try {
     write(temporary);
-    std::filesystem::rename(temporary, path);
-  } catch (const std::filesystem::filesystem_error& error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::runtime_error("cannot write '" + path + "': " + error.code().message());
   } catch (...) {
-    std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
     throw;
   }
+  std::filesystem::rename(temporary, path, error);
+  if (!error) return;
+  std::filesystem::remove(temporary, ignored);
+  throw std::runtime_error("cannot write '" + path + "': " + error.message());
 }
 
 void writeTextFile(const std::string& path, const std::string& text) {

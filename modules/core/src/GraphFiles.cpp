@@ -1,7 +1,8 @@
 #include "lamp/core/GraphFiles.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "lamp/core/Csv.h"
@@ -24,9 +25,11 @@ Matrix6d tangentFromYawPitchRoll(const Pose3& pose) {
 }
 
 std::string digits17(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.17g", value);
-  return buffer;
+  std::array<char, 32> buffer;
+  const auto format = std::chars_format::general;
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format, 17).ptr;
+  return {buffer.data(), end};
 }
 
 std::string joined(const std::vector<double>& values) {
@@ -42,11 +45,15 @@ std::vector<double> upperTriangle(const Eigen::MatrixXd& m) {
   return values;
 }
 
-Eigen::Matrix3d planarBlock(const Matrix6d& m) {
+Eigen::MatrixXd planarInformation(const Edge& edge) {
   Eigen::Matrix3d result;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) result(i, j) = m(kPlanarAxes[i], kPlanarAxes[j]);
+    for (int j = 0; j < 3; ++j) result(i, j) = edge.information(kPlanarAxes[i], kPlanarAxes[j]);
   return result;
+}
+
+Eigen::MatrixXd quaternionInformation(const Edge& edge) {
+  return toG2oInformation(edge.information);
 }
 
 std::vector<double> planarValues(const Pose3& T) {
@@ -65,14 +72,42 @@ std::vector<double> rollPitchYawValues(const Pose3& T) {
   return {v[0], v[1], v[2], v[5], v[4], v[3]};
 }
 
-/** Information on MRPT's `[x y z yaw pitch roll]`, which its files keep in that order. */
-Matrix6d mrptInformation(const Edge& edge) {
-  const Matrix6d J = tangentFromYawPitchRoll(edge.from_T_to);
+/** Information on `[x y z roll pitch yaw]`: the order of MRPT's files, not of its classes. */
+Eigen::MatrixXd rollPitchYawInformation(const Edge& edge) {
+  Matrix6d J = tangentFromYawPitchRoll(edge.from_T_to);
+  J.col(3).swap(J.col(5));
   return J.transpose() * edge.information * J;
 }
 
-bool isWritten(const Edge& edge) {
-  return edge.type != EdgeType::kPrior && edge.active();
+/** How one kind of text file writes poses and information matrices. */
+struct TextFormat {
+  const char* vertex;
+  const char* edge;
+  std::vector<double> (*pose)(const Pose3&);
+  Eigen::MatrixXd (*information)(const Edge&);
+};
+constexpr TextFormat kPlanar{"VERTEX_SE2", "EDGE_SE2", planarValues, planarInformation};
+constexpr TextFormat kQuaternion{"VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", quaternionValues,
+                                 quaternionInformation};
+constexpr TextFormat kRollPitchYaw{"VERTEX3", "EDGE3", rollPitchYawValues, rollPitchYawInformation};
+
+std::string nodeLines(const PoseGraph& graph, const TextFormat& format) {
+  std::string text;
+  for (size_t i = 0; i < graph.nodes().size(); ++i)
+    text += std::string(format.vertex) + " " + std::to_string(i) +
+            joined(format.pose(graph.nodes()[i].world_T_base)) + "\n";
+  return text;
+}
+
+std::string edgeLines(const PoseGraph& graph, const TextFormat& format) {
+  std::string text;
+  for (const Edge& edge : graph.edges()) {
+    if (edge.type == EdgeType::kPrior || !edge.active()) continue;
+    text += std::string(format.edge) + " " + std::to_string(graph.place(edge.from)) + " " +
+            std::to_string(graph.place(edge.to)) + joined(format.pose(edge.from_T_to)) +
+            joined(upperTriangle(format.information(edge))) + "\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -100,54 +135,16 @@ Matrix6d covarianceToMrpt(const Pose3& pose, const Matrix6d& tangent) {
 }
 
 std::string toG2o(const PoseGraph& graph) {
-  const bool planar = graph.planar();
-  std::string text;
-  for (size_t i = 0; i < graph.nodes().size(); ++i) {
-    const Pose3& pose = graph.nodes()[i].world_T_base;
-    text += (planar ? "VERTEX_SE2 " : "VERTEX_SE3:QUAT ") + std::to_string(i) +
-            joined(planar ? planarValues(pose) : quaternionValues(pose)) + "\n";
-  }
+  const TextFormat& format = graph.planar() ? kPlanar : kQuaternion;
+  std::string fixed;
   for (const Component& component : graph.components())
-    text += "FIX " + std::to_string(graph.place(component.nodes.front())) + "\n";
-  for (const Edge& edge : graph.edges()) {
-    if (!isWritten(edge)) continue;
-    text += (planar ? "EDGE_SE2 " : "EDGE_SE3:QUAT ") + std::to_string(graph.place(edge.from)) +
-            " " + std::to_string(graph.place(edge.to));
-    if (planar)
-      text += joined(planarValues(edge.from_T_to)) +
-              joined(upperTriangle(planarBlock(edge.information)));
-    else
-      text += joined(quaternionValues(edge.from_T_to)) +
-              joined(upperTriangle(toG2oInformation(edge.information)));
-    text += "\n";
-  }
-  return text;
+    fixed += "FIX " + std::to_string(graph.place(component.nodes.front())) + "\n";
+  return nodeLines(graph, format) + fixed + edgeLines(graph, format);
 }
 
 std::string toMrptGraph(const PoseGraph& graph) {
-  const bool planar = graph.planar();
-  std::string text;
-  for (size_t i = 0; i < graph.nodes().size(); ++i) {
-    const Pose3& pose = graph.nodes()[i].world_T_base;
-    text += (planar ? "VERTEX2 " : "VERTEX3 ") + std::to_string(i) +
-            joined(planar ? planarValues(pose) : rollPitchYawValues(pose)) + "\n";
-  }
-  for (const Edge& edge : graph.edges()) {
-    if (!isWritten(edge)) continue;
-    text += (planar ? "EDGE2 " : "EDGE3 ") + std::to_string(graph.place(edge.from)) + " " +
-            std::to_string(graph.place(edge.to));
-    if (planar) {
-      // TORO's order of the six numbers: xx xy yy tt xt yt.
-      const Eigen::Matrix3d m = planarBlock(edge.information);
-      text += joined(planarValues(edge.from_T_to)) +
-              joined({m(0, 0), m(0, 1), m(1, 1), m(2, 2), m(0, 2), m(1, 2)});
-    } else {
-      text +=
-          joined(rollPitchYawValues(edge.from_T_to)) + joined(upperTriangle(mrptInformation(edge)));
-    }
-    text += "\n";
-  }
-  return text;
+  const TextFormat& format = graph.planar() ? kPlanar : kRollPitchYaw;
+  return nodeLines(graph, format) + edgeLines(graph, format);
 }
 
 std::string toGraphIdsCsv(const PoseGraph& graph, const RobotTable& robots) {

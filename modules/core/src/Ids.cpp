@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <limits>
 #include <stdexcept>
 
 namespace lamp {
@@ -60,12 +62,13 @@ std::string RobotTable::format(KeyframeId id) const {
 KeyframeId RobotTable::parse(const std::string& text) const {
   const size_t colon = text.rfind(':');
   const std::string digits = colon == std::string::npos ? "" : text.substr(colon + 1);
-  const bool is_number =
-      !digits.empty() && digits.size() <= 9 &&
-      std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return std::isdigit(c); });
+  const char* end = digits.data() + digits.size();
+  uint32_t index = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), end, index);
+  const bool is_number = error == std::errc() && stop == end;
   const auto robot = is_number ? find(text.substr(0, colon)) : std::nullopt;
   if (!robot) throw std::runtime_error("'" + text + "' is no key node of a known robot");
-  return {*robot, static_cast<uint32_t>(std::stoul(digits))};
+  return {*robot, index};
 }
 
 uint64_t RobotTable::symbol(KeyframeId id) const {
@@ -74,9 +77,12 @@ uint64_t RobotTable::symbol(KeyframeId id) const {
 
 KeyframeId RobotTable::fromSymbol(uint64_t symbol) const {
   const char letter = static_cast<char>(symbol >> kSymbolLetterShift);
+  const uint64_t index = symbol & ((uint64_t{1} << kSymbolLetterShift) - 1);
+  if (index > std::numeric_limits<uint32_t>::max())
+    throw std::runtime_error("symbol " + std::to_string(symbol) + " has an index above 32 bits");
   for (size_t i = 0; i < robots_.size(); ++i)
     if (robots_[i].letter == letter)
-      return {RobotId{static_cast<uint16_t>(i)}, static_cast<uint32_t>(symbol)};
+      return {RobotId{static_cast<uint16_t>(i)}, static_cast<uint32_t>(index)};
   throw std::runtime_error("symbol " + std::to_string(symbol) + " is of no known robot");
 }
 

@@ -10,12 +10,12 @@ namespace lamp {
 namespace {
 
 std::string describe(const Range& range) {
-  const bool has_min = std::isfinite(range.min), has_max = std::isfinite(range.max);
-  if (range.min == kPositive.min) return "must be above 0";
-  if (has_min && has_max)
-    return "must lie in " + formatDouble(range.min) + " to " + formatDouble(range.max);
-  if (has_min) return "must be at least " + formatDouble(range.min);
-  return "must be at most " + formatDouble(range.max);
+  const std::string above = range.min == kPositive.min ? "must be above 0"
+                            : std::isfinite(range.min)
+                                ? "must be at least " + formatDouble(range.min)
+                                : "";
+  if (!std::isfinite(range.max)) return above;
+  return (above.empty() ? "must be" : above + " and") + " at most " + formatDouble(range.max);
 }
 
 std::string join(const std::vector<std::string>& words, const char* separator) {

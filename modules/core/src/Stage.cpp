@@ -55,7 +55,7 @@ std::shared_ptr<Stage> makeStage(const StageName& name, const mrpt::rtti::TRunti
     std::string list;
     for (const std::string& class_name : known) list += (list.empty() ? "" : ", ") + class_name;
     faults.add(where, "there is no " + kind + " '" + name.class_name + "'" +
-                          didYouMean(name.class_name, known) + " Known: " + list);
+                          didYouMean(name.class_name, known) + "; known: " + list);
     return nullptr;
   }
   auto stage =

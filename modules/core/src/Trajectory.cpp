@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,7 +17,8 @@ namespace {
 StampedPose parseTumRow(const std::vector<std::string>& words, const std::string& where) {
   std::array<double, 8> v;
   bool good = words.size() == v.size();
-  for (size_t i = 0; good && i < v.size(); ++i) good = parseDouble(words[i], v[i]);
+  for (size_t i = 0; good && i < v.size(); ++i)
+    good = parseDouble(words[i], v[i]) && std::isfinite(v[i]);
   const Eigen::Quaterniond q =
       good ? Eigen::Quaterniond(v[7], v[4], v[5], v[6]) : Eigen::Quaterniond(0, 0, 0, 0);
   if (!good || !(q.norm() > 1e-6))

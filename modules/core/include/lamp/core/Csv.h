@@ -27,7 +27,7 @@ struct CsvTable {
 std::string formatDouble(double value);
 /** With a fixed number of decimals. */
 std::string formatFixed(double value, int decimals);
-/** The whole text must be one number. \return false otherwise. */
+/** The whole text must be one number. \return false otherwise; `value` stays as it was then. */
 bool parseDouble(const std::string& text, double& value);
 
 }  // namespace lamp

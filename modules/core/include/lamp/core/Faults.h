@@ -26,7 +26,7 @@ class Faults {
   std::vector<std::string> faults_;
 };
 
-/** `, did you mean 'x'?` for the known word nearest to a misspelt one, or an empty string. */
+/** ` (did you mean 'x'?)` for the known word nearest to a misspelt one, or an empty string. */
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace lamp

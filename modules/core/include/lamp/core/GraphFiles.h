@@ -20,7 +20,9 @@ Matrix6d covarianceToMrpt(const Pose3& pose, const Matrix6d& tangent);
  * node of each component is fixed. */
 std::string toG2o(const PoseGraph& graph);
 
-/** The same graph in MRPT's text format (VERTEX3/EDGE3, yaw pitch roll). */
+/** The same graph in MRPT's text format: VERTEX3/EDGE3 with roll pitch yaw; a planar graph as
+ * VERTEX_SE2/EDGE_SE2, since MRPT reads EDGE2 in g2o's order and not in TORO's. MRPT 2.5.8 itself
+ * drops the correlations between the three angles when it reads EDGE3 (or g2o's EDGE_SE3:QUAT). */
 std::string toMrptGraph(const PoseGraph& graph);
 
 /** `id,robot,index,symbol,stamp` for the dense ids of the two formats above. */

@@ -56,7 +56,8 @@ class RobotTable {
   KeyframeId parse(const std::string& text) const;
 
   uint64_t symbol(KeyframeId id) const;
-  /** Inverse of symbol(). \throws std::runtime_error if no robot has the letter. */
+  /** Inverse of symbol(). \throws std::runtime_error if no robot has the letter, or the index has
+   *  more than 32 bits. */
   KeyframeId fromSymbol(uint64_t symbol) const;
 
  private:

@@ -56,7 +56,7 @@ struct Color {
 };
 Color robotColor(RobotId robot);
 
-/** Registers Ply, Pcd, OctoMap and Picture. */
+/** Registers MapExporter, Ply, Pcd, OctoMap and Picture. */
 void registerAllClasses_lamp_maps();
 
 }  // namespace lamp

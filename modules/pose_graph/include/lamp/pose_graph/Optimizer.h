@@ -17,11 +17,11 @@ struct LoopVerdict {
 };
 
 struct OptimizationReport {
-  bool usable = true;        ///< false: the poses must not be used
-  std::string termination;   ///< why the solver stopped, in words
-  int iterations = 0;        ///< inner iterations, over all outer rounds
-  int rounds = 1;            ///< outer (GNC) rounds
-  double initial_cost = 0;   ///< half the weighted sum of squared residuals
+  bool usable = true;       ///< false: the poses must not be used
+  std::string termination;  ///< why the solver stopped, in words
+  int iterations = 0;       ///< inner iterations, over all outer rounds
+  int rounds = 1;           ///< outer (GNC) rounds
+  double initial_cost = 0;  ///< half the weighted sum of squared residuals
   double final_cost = 0;
 };
 

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <mrpt/system/COutputLogger.h>
+#include <mrpt/system/CTimeLogger.h>
+
+#include <map>
+#include <unordered_map>
+#include <vector>
+
+#include "lamp/base_station/BaseStationOptions.h"
+#include "lamp/base_station/Ledger.h"
+#include "lamp/base_station/SlamConfig.h"
+#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/PoseGraph.h"
+#include "lamp/core/UncertaintyQuery.h"
+#include "lamp/loop_priority/CandidateQueue.h"
+#include "lamp/registration/LoopClosureComputation.h"
+#include "lamp/registration/PreparedScanStore.h"
+
+namespace lamp {
+
+/** The multi-robot front end and back end of the paper (II-C, II-D), driven by arriving key nodes:
+ * register the node, find and compute its loop closures, optimise when enough has been learnt.
+ *
+ * Registrations run on the caller's TBB arena; everything else, and all writing, on the calling
+ * thread in candidate order, so results do not depend on the number of threads.
+ */
+class BaseStation : public mrpt::system::COutputLogger {
+ public:
+  BaseStation(const SlamConfig& config, mrpt::system::CTimeLogger& timer);
+
+  void receive(const KeyframePacket& packet);
+  void receive(const RobotEnd& end);
+  /** Computes what still waits, unless `interrupted`, and optimises a last time. */
+  void finish(bool interrupted);
+
+  const PoseGraph& graph() const { return graph_; }
+  const Ledger& ledger() const { return ledger_; }
+  size_t candidates() const { return candidate_count_; }
+  size_t optimizations() const { return optimization_count_; }
+  const OptimizationReport& lastReport() const { return report_; }
+  /** Key nodes with their scans, in KeyframeId order. */
+  const std::map<KeyframeId, KeyframePacket>& packets() const { return packets_; }
+
+  /** Optimised trajectory of a robot, one pose a lidar scan: scans between key nodes follow
+   * odometry, with the correction blended between their neighbours. */
+  std::vector<StampedPose> trajectory(RobotId robot) const;
+  std::vector<StampedPose> keyframeTrajectory(RobotId robot) const;
+  /** Dead reckoning from the robot's start pose, one pose a lidar scan. */
+  std::vector<StampedPose> odometryTrajectory(RobotId robot) const;
+
+ private:
+  void registerNode(const KeyframePacket& packet);
+  void propose(KeyframeId id);
+  bool isWorthTrying(const LoopClosureCandidate& candidate) const;
+  void computeRound(size_t budget);
+  std::vector<Guess> guesses(const std::vector<LoopClosureCandidate>& candidates,
+                             const UncertaintyQuery& uncertainty) const;
+  Guess guess(const LoopClosureCandidate& candidate) const;
+  void prepareScans(const std::vector<LoopClosureCandidate>& candidates);
+  void record(const LoopClosureCandidate& candidate, const Guess& guess, LoopClosureAttempt attempt,
+              size_t rank);
+  bool optimizationDue() const;
+  void optimize();
+  void proposeAgain();
+
+  const BaseStationOptions options_;
+  const bool inter_robot_loops_;
+  const Stages stages_;
+  const LoopClosureComputation computation_;
+  mrpt::system::CTimeLogger& timer_;
+
+  PoseGraph graph_;
+  PreparedScanStore scans_;
+  CandidateQueue queue_;
+  Ledger ledger_;
+  std::map<KeyframeId, KeyframePacket> packets_;
+  std::map<RobotId, std::vector<StampedPose>> trailing_scans_;
+  /** Where each key node stood when candidates were last sought for it. */
+  std::unordered_map<KeyframeId, Eigen::Vector3d> proposed_at_;
+
+  size_t round_ = 0;
+  size_t candidate_count_ = 0;
+  size_t optimization_count_ = 0;
+  size_t loops_ = 0;
+  size_t optimized_loops_ = 0;
+  bool optimized_all_ = true;
+  OptimizationReport report_;
+};
+
+}  // namespace lamp

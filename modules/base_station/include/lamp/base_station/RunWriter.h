@@ -1,0 +1,39 @@
+#pragma once
+
+#include <mrpt/system/CTimeLogger.h>
+
+#include <string>
+#include <vector>
+
+#include "lamp/base_station/BaseStation.h"
+#include "lamp/core/RunFolder.h"
+
+namespace lamp {
+
+/** What the front end has to say about one robot. */
+struct FrontEndReport {
+  RobotId robot;
+  FrontEnd::Counts counts;
+  std::vector<std::string> warnings;
+};
+
+/** Everything that a run folder is made of. */
+struct RunResult {
+  const SlamConfig& config;
+  const RobotTable& robots;
+  const BaseStation& base_station;
+  std::vector<FrontEndReport> reports;
+  std::vector<std::string> input_warnings;
+  bool interrupted = false;
+};
+
+/** Writes all files of docs/run-folder.md but timings.json, which comes last. */
+void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer);
+
+/** Seconds per stage, peak memory and threads; the one file that differs from run to run. */
+void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer, int threads);
+
+/** What a user wants to know at the end of a run, a few lines. */
+std::string describeRun(const RunFolder& folder, const RunResult& result);
+
+}  // namespace lamp

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <mrpt/system/COutputLogger.h>
+#include <mrpt/system/CTimeLogger.h>
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "lamp/base_station/SlamConfig.h"
+#include "lamp/core/RunFolder.h"
+
+namespace lamp {
+
+/** One experiment from rawlogs to a run folder; what `lamp-slam` does once it knows its arguments.
+ */
+class SlamRun : public mrpt::system::COutputLogger {
+ public:
+  struct Job {
+    std::vector<std::string> rawlogs;  ///< beside those that the ini names
+    std::string out;                   ///< folder of the run; must be new or empty
+    int threads = 1;                   ///< for registration
+  };
+
+  /** \param interrupted may be set from a signal handler: the run then ends early with what it has.
+   */
+  SlamRun(SlamConfig config, Job job, const std::atomic<bool>& interrupted);
+
+  /** \return what was found, for the user.
+   *  \throws std::runtime_error if there is nothing to map, or a file cannot be read or written. */
+  std::string run();
+
+ private:
+  void warn(const std::vector<std::string>& warnings, const std::string& prefix = "");
+
+  SlamConfig config_;
+  const Job job_;
+  const std::atomic<bool>& interrupted_;
+};
+
+}  // namespace lamp

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lamp/base_station/RunWriter.h"
+#include "lamp/base_station/SlamConfig.h"
+#include "lamp/frontend/FrontEnd.h"
+#include "lamp/transport/Transport.h"
+
+namespace lamp {
+
+/** The front ends of all robots, made as the robots appear in the input. */
+class FrontEndTeam {
+ public:
+  FrontEndTeam(const SlamConfig& config, MessageSender& sender);
+
+  /** \return false if nobody receives the key nodes any more. */
+  bool observe(const InputObservation& observation);
+  /** Flushes what waits and closes the robots' streams. */
+  void finish();
+  std::vector<FrontEndReport> reports() const;
+
+ private:
+  FrontEnd& of(RobotId robot);
+  bool send(std::vector<KeyframePacket> packets);
+
+  const SlamConfig& config_;
+  MessageSender& sender_;
+  std::map<RobotId, FrontEnd> front_ends_;
+};
+
+}  // namespace lamp

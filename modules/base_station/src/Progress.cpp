@@ -1,0 +1,45 @@
+#include "Progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace lamp {
+
+namespace {
+
+constexpr auto kInterval = std::chrono::milliseconds(200);
+
+std::string minutes(double seconds) {
+  const int whole = static_cast<int>(seconds + 0.5);
+  const std::string rest = std::to_string(whole % 60);
+  return std::to_string(whole / 60) + ":" + (rest.size() == 1 ? "0" : "") + rest;
+}
+
+}  // namespace
+
+Progress::Progress()
+    : on_terminal_(::isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_shown_(start_) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::show(double share, const std::string& detail) {
+  const auto now = Clock::now();
+  if (!on_terminal_ || now - last_shown_ < kInterval) return;
+  last_shown_ = now;
+  shown_ = true;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  std::string line = std::to_string(static_cast<int>(100.0 * share)) + " %";
+  if (share > 0.01) line += ", " + minutes(elapsed * (1.0 - share) / share) + " left";
+  std::cerr << "\r\033[K" << line << ", " << detail << std::flush;
+}
+
+void Progress::clear() {
+  if (shown_) std::cerr << "\r\033[K" << std::flush;
+  shown_ = false;
+}
+
+}  // namespace lamp

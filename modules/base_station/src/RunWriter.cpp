@@ -1,0 +1,133 @@
+#include "lamp/base_station/RunWriter.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "Summary.h"
+#include "lamp/core/Files.h"
+#include "lamp/core/GraphFiles.h"
+#include "lamp/core/Trajectory.h"
+#include "lamp/maps/KeyframeRawlog.h"
+
+namespace lamp {
+
+namespace {
+
+using mrpt::system::CTimeLoggerEntry;
+
+void writeTrajectories(const RunFolder& folder, const RunResult& result) {
+  const BaseStation& base = result.base_station;
+  for (const RobotId robot : base.graph().robots()) {
+    const std::string& name = result.robots.name(robot);
+    writeTextFile(folder.trajectory(name), toTum(base.trajectory(robot)));
+    writeTextFile(folder.keyframeTrajectory(name), toTum(base.keyframeTrajectory(robot)));
+    writeTextFile(folder.odometryTrajectory(name), toTum(base.odometryTrajectory(robot)));
+  }
+}
+
+void writeKeyframes(const RunFolder& folder, const RunResult& result) {
+  const BaseStation& base = result.base_station;
+  for (const RobotId robot : base.graph().robots()) {
+    std::vector<KeyframePacket> packets;
+    for (const KeyframeId id : base.graph().robotNodes(robot))
+      packets.push_back(base.packets().at(id));
+    const std::string& name = result.robots.name(robot);
+    writeKeyframeRawlog(folder.keyframes(name), name, packets);
+  }
+}
+
+ComponentMap makeMap(const RunResult& result, const Component& component) {
+  const BaseStation& base = result.base_station;
+  ComponentMap map;
+  map.robots = &result.robots;
+  for (const KeyframeId id : component.nodes) {
+    const Node& node = base.graph().node(id);
+    map.keyframes.push_back({id, node.stamp, node.world_T_base, base.packets().at(id).scan});
+  }
+  for (const RobotId robot : component.robots)
+    map.tracks.push_back({robot, base.trajectory(robot)});
+  for (const Edge& edge : base.graph().edges()) {
+    if (edge.type != EdgeType::kLoopClosure) continue;
+    const auto inside = [&](KeyframeId id) {
+      return std::binary_search(component.nodes.begin(), component.nodes.end(), id);
+    };
+    if (inside(edge.from) && inside(edge.to))
+      map.loops.push_back({base.graph().node(edge.from).world_T_base.translation(),
+                           base.graph().node(edge.to).world_T_base.translation(), edge.verdict});
+  }
+  return map;
+}
+
+void writeMaps(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer) {
+  const auto components = result.base_station.graph().components();
+  for (size_t rank = 0; rank < components.size(); ++rank) {
+    const ComponentMap map = makeMap(result, components[rank]);
+    for (const auto& exporter : result.config.stages.exporters) {
+      const CTimeLoggerEntry timing(timer, ("maps." + exporter->getLoggerName()).c_str());
+      exporter->exportMap(map, folder.mapStem(rank));
+    }
+  }
+}
+
+std::string names(const RobotTable& robots, const std::vector<RobotId>& ids) {
+  std::string text;
+  for (const RobotId robot : ids) text += (text.empty() ? "" : ", ") + robots.name(robot);
+  return text;
+}
+
+}  // namespace
+
+void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer) {
+  const BaseStation& base = result.base_station;
+  {
+    const CTimeLoggerEntry timing(timer, "run_folder");
+    writeTextFile(folder.config(), result.config.text());
+    writeTrajectories(folder, result);
+    writeTextFile(folder.graphG2o(), toG2o(base.graph()));
+    writeTextFile(folder.graphMrpt(), toMrptGraph(base.graph()));
+    writeTextFile(folder.graphIds(), toGraphIdsCsv(base.graph(), result.robots));
+    writeTextFile(folder.loops(), base.ledger().loops(base.graph(), result.robots).text());
+    writeTextFile(folder.verdicts(), base.ledger().verdicts().text());
+    writeKeyframes(folder, result);
+  }
+  writeMaps(folder, result, timer);
+  writeTextFile(folder.summary(), summarize(result).dump(2) + "\n");
+}
+
+void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer, int threads) {
+  std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stats;
+  timer.getStats(stats);
+  nlohmann::ordered_json json;
+  json["threads"] = threads;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  json["peak_memory_mb"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
+  for (const auto& [name, stat] : stats)
+    json["stages"][name] = {{"seconds", stat.total_t}, {"calls", stat.n_calls}};
+  writeTextFile(folder.timings(), json.dump(2) + "\n");
+}
+
+std::string describeRun(const RunFolder& folder, const RunResult& result) {
+  const BaseStation& base = result.base_station;
+  const LoopCounts loops = countLoops(base);
+  const auto components = base.graph().components();
+  std::ostringstream text;
+  text << base.graph().nodes().size() << " key nodes, " << loops.attempts
+       << " loop closures tried, " << loops.verified << " verified, " << loops.inliers << " kept\n";
+  for (size_t rank = 0; rank < components.size(); ++rank) {
+    const ComponentLoops inliers = countLoops(base.graph(), components[rank]);
+    text << "map " << rank + 1 << " of " << components.size() << ": "
+         << names(result.robots, components[rank].robots) << " (" << components[rank].nodes.size()
+         << " key nodes, " << inliers.within_robots << " loops within robots, "
+         << inliers.between_robots << " between): " << folder.mapStem(rank) << ".*\n";
+  }
+  if (components.size() > 1)
+    text << "No trusted loop closure joins these " << components.size()
+         << " components: they stay separate maps.\n";
+  return text.str();
+}
+
+}  // namespace lamp

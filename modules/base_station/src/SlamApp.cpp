@@ -1,0 +1,134 @@
+#include "lamp/base_station/SlamApp.h"
+
+#include <signal.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <iostream>
+#include <thread>
+
+#include "lamp/base_station/SlamRun.h"
+#include "lamp/base_station/Version.h"
+
+namespace lamp {
+
+namespace {
+
+constexpr int kOk = 0, kFailed = 1, kWrongUse = 2;
+
+std::atomic<bool> interrupted{false};
+
+/** The first Ctrl-C ends the run with what there is, the second one ends the program. */
+void onInterrupt(int signal) {
+  interrupted = true;
+  ::signal(signal, SIG_DFL);
+}
+
+struct Arguments {
+  std::string config;
+  std::vector<std::string> rawlogs;
+  std::string out;
+  std::vector<std::string> overrides;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int seed = -1;
+  std::string log = "WARN";
+  bool list_modules = false;
+  bool dump_config = false;
+  bool dump_parameters = false;
+};
+
+const std::map<std::string, mrpt::system::VerbosityLevel> kLevels = {
+    {"DEBUG", mrpt::system::LVL_DEBUG},
+    {"INFO", mrpt::system::LVL_INFO},
+    {"WARN", mrpt::system::LVL_WARN},
+    {"ERROR", mrpt::system::LVL_ERROR}};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.description(
+      "Multi-robot lidar SLAM: rawlogs in, one optimised map out.\n"
+      "Example: lamp-slam ini/default.ini robot1.rawlog robot2.rawlog --out run1");
+  app.set_version_flag("--version", std::string("lamp-slam ") + kVersion);
+  app.add_option("config", arguments.config, "Experiment file (see ini/)")->type_name("CONFIG.ini");
+  app.add_option("rawlogs", arguments.rawlogs, "Recordings, beside those that the ini names")
+      ->type_name("RAWLOG");
+  app.add_option("--out", arguments.out, "Folder for the results; new or empty")->type_name("DIR");
+  app.add_option("--set", arguments.overrides, "Overrides one key of the ini")
+      ->type_name("SECTION.KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--threads", arguments.threads,
+                 "Threads for registration; results do not depend on it")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+  app.add_option("--seed", arguments.seed, "Overrides run.seed")->check(CLI::NonNegativeNumber);
+  app.add_option("--log", arguments.log, "How much to say: DEBUG, INFO, WARN, ERROR")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"DEBUG", "INFO", "WARN", "ERROR"}));
+  app.add_flag("--list-modules", arguments.list_modules, "Lists the stages that an ini can name");
+  app.add_flag("--dump-config", arguments.dump_config, "Prints the complete ini that would be run");
+  app.add_flag("--dump-parameters", arguments.dump_parameters,
+               "Prints all sections and keys as Markdown");
+}
+
+SlamConfig readConfig(const Arguments& arguments) {
+  std::vector<std::string> overrides = arguments.overrides;
+  if (arguments.seed >= 0) overrides.push_back("run.seed=" + std::to_string(arguments.seed));
+  return SlamConfig::fromFile(arguments.config, overrides);
+}
+
+int run(const Arguments& arguments) {
+  registerAllClasses_lamp();
+  if (arguments.dump_parameters) {
+    std::cout << describeParameters();
+    return kOk;
+  }
+  if (arguments.config.empty()) {
+    if (arguments.list_modules) {
+      std::cout << listStages();
+      return kOk;
+    }
+    std::cerr << "lamp-slam: name an ini, for example: lamp-slam ini/default.ini RAWLOG --out DIR\n"
+                 "Run with --help for all options.\n";
+    return kWrongUse;
+  }
+  SlamConfig config = readConfig(arguments);
+  if (arguments.list_modules || arguments.dump_config) {
+    std::cout << (arguments.list_modules ? listStages() : config.text());
+    return kOk;
+  }
+  if (arguments.out.empty()) {
+    std::cerr << "lamp-slam: say where the results go: --out DIR\n";
+    return kWrongUse;
+  }
+  ::signal(SIGINT, onInterrupt);
+  SlamRun slam(std::move(config), {arguments.rawlogs, arguments.out, arguments.threads},
+               interrupted);
+  slam.setMinLoggingLevel(kLevels.at(arguments.log));
+  std::cout << slam.run();
+  if (interrupted) std::cout << "The run was interrupted: this is the map up to there.\n";
+  return kOk;
+}
+
+}  // namespace
+
+int slamApp(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kOk : kWrongUse;
+  }
+  try {
+    return run(arguments);
+  } catch (const ConfigError& error) {
+    std::cerr << "lamp-slam: the configuration has faults:\n" << error.what() << "\n";
+    return kWrongUse;
+  } catch (const std::exception& error) {
+    std::cerr << "lamp-slam: " << error.what() << "\n";
+    return kFailed;
+  }
+}
+
+}  // namespace lamp

@@ -1,0 +1,265 @@
+#include "lamp/base_station/SlamConfig.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "lamp/registration/LoopClosureComputation.h"
+
+namespace lamp {
+
+namespace {
+
+const std::string kRobotPrefix = "robot.";
+const std::string kStagePrefix = "lamp::";
+
+/** The interfaces whose implementations the ini can name, with the `[pipeline]` key of each. */
+struct StageKind {
+  const char* key;
+  const char* name;
+  const mrpt::rtti::TRuntimeClassId* base;
+};
+
+std::vector<StageKind> stageKinds() {
+  return {{"odometry", "odometry source", CLASS_ID(OdometrySource)},
+          {"candidates", "candidate generator", CLASS_ID(CandidateGenerator)},
+          {"priority", "prioritizer", CLASS_ID(Prioritizer)},
+          {"initial_aligner", "initial aligner", CLASS_ID(InitialAligner)},
+          {"refiner", "refiner", CLASS_ID(Refiner)},
+          {"verifiers", "verifier", CLASS_ID(Verifier)},
+          {"optimizer", "optimizer", CLASS_ID(Optimizer)},
+          {"exporters", "map exporter", CLASS_ID(MapExporter)}};
+}
+
+/** `file:line` of a key of `[pipeline]`, or the section where the default is used. */
+std::string wherePipeline(const Ini& ini, const std::string& key) {
+  const Ini::Section* section = ini.find("pipeline");
+  const Ini::Entry* entry = section ? section->find(key) : nullptr;
+  return (entry ? entry->where + ": " : "") + "[pipeline] " + key;
+}
+
+/** Makes stages of one kind, by the name in the ini. */
+template <class Base>
+class Maker {
+ public:
+  Maker(const Ini& ini, const char* key, const char* kind, Faults& faults)
+      : ini_(ini), where_(wherePipeline(ini, key)), kind_(kind), faults_(faults) {}
+
+  std::shared_ptr<Base> one(const std::string& name) const {
+    if (!name.empty()) return makeStage<Base>(StageName::parse(name), kind_, where_, ini_, faults_);
+    faults_.add(where_, "needs a name");
+    return nullptr;
+  }
+
+  std::vector<std::shared_ptr<Base>> all(const std::vector<std::string>& names) const {
+    std::vector<std::shared_ptr<Base>> stages;
+    for (const std::string& name : names) stages.push_back(one(name));
+    return stages;
+  }
+
+ private:
+  const Ini& ini_;
+  std::string where_;
+  const char* kind_;
+  Faults& faults_;
+};
+
+}  // namespace
+
+void PipelineOptions::visit(OptionVisitor& v) {
+  v("odometry", odometry, "odometry source");
+  v("candidates", candidates, "candidate generators; none gives odometry only");
+  v("priority", priority, "prioritizer of candidates");
+  v("initial_aligner", initial_aligner, "first stage of the loop closure computation");
+  v("refiner", refiner, "second stage of the loop closure computation");
+  v("verifiers", verifiers, "all of these must accept a loop closure");
+  v("optimizer", optimizer, "back end");
+  v("exporters", exporters, "kinds of map to write");
+  v("inter_robot_loops", inter_robot_loops, "search loop closures between robots");
+}
+
+void PluginOptions::visit(OptionVisitor& v) {
+  v("load", load, "libraries with further stages");
+}
+
+void InputOptions::visit(OptionVisitor& v) {
+  v("rawlogs", rawlogs, "recordings, beside those that [robot.NAME] sections name");
+}
+
+void RunOptions::visit(OptionVisitor& v) {
+  v("seed", seed, "", "seed of everything random", kNotNegative);
+}
+
+void BaseStationOptions::visit(OptionVisitor& v) {
+  v("closures_per_round", closures_per_round, "",
+    "loop closures computed after each key node, 0 for all that wait", kNotNegative);
+  v("optimize_min_loops", optimize_min_loops, "loops",
+    "new loop closures that start an optimisation", {1});
+  v("optimize_growth", optimize_growth, "",
+    "an optimisation waits until the loop closures have grown by this share", kNotNegative);
+  v("repropose_distance_m", repropose_distance_m, "m",
+    "candidates are sought again for key nodes that optimisation has moved this far", kPositive);
+  v("retry_distance_m", retry_distance_m, "m",
+    "a refused candidate is tried again if its guess has moved this far", kPositive);
+  v("max_attempts", max_attempts, "", "attempts for one pair of key nodes", {1});
+}
+
+SlamConfig SlamConfig::fromFile(const std::string& path,
+                                const std::vector<std::string>& overrides) {
+  Faults faults;
+  Ini ini = Ini::fromFile(path, faults);
+  for (const std::string& assignment : overrides) ini.set(assignment, faults);
+  faults.throwIfAny();
+  return SlamConfig(std::move(ini));
+}
+
+SlamConfig::SlamConfig(Ini ini) : ini_(std::move(ini)) {
+  Faults faults;
+  readOptions(ini_.find("plugins"), plugins, faults);
+  loadPlugins(plugins.load);
+  readOptions(ini_.find("run"), run, faults);
+  readOptions(ini_.find("input"), input, faults);
+  readOptions(ini_.find("pipeline"), pipeline, faults);
+  readOptions(ini_.find("frontend"), frontend, faults);
+  readOptions(ini_.find("registration"), preparation, faults);
+  readOptions(ini_.find("base_station"), base_station, faults);
+  readRobots(faults);
+  makeStages(faults);
+  checkSections(faults);
+  faults.throwIfAny();
+}
+
+void SlamConfig::readRobots(Faults& faults) {
+  RobotTable names;
+  for (const Ini::Section& section : ini_.sections()) {
+    if (section.name.rfind(kRobotPrefix, 0) != 0) continue;
+    RobotOptions robot;
+    robot.name = section.name.substr(kRobotPrefix.size());
+    readOptions(&section, robot, faults);
+    try {
+      names.add(robot.name, robot.key.empty() ? '\0' : robot.key.front());
+    } catch (const std::runtime_error& error) {
+      faults.add(section.where, error.what());
+    }
+    robots.push_back(std::move(robot));
+  }
+}
+
+void SlamConfig::makeStages(Faults& faults) {
+  Maker<OdometrySource>(ini_, "odometry", "odometry source", faults).one(pipeline.odometry);
+  stages.candidates = Maker<CandidateGenerator>(ini_, "candidates", "candidate generator", faults)
+                          .all(pipeline.candidates);
+  stages.priority =
+      Maker<Prioritizer>(ini_, "priority", "prioritizer", faults).one(pipeline.priority);
+  stages.initial_aligner = Maker<InitialAligner>(ini_, "initial_aligner", "initial aligner", faults)
+                               .one(pipeline.initial_aligner);
+  stages.refiner = Maker<Refiner>(ini_, "refiner", "refiner", faults).one(pipeline.refiner);
+  stages.verifiers = Maker<Verifier>(ini_, "verifiers", "verifier", faults).all(pipeline.verifiers);
+  stages.optimizer =
+      Maker<Optimizer>(ini_, "optimizer", "optimizer", faults).one(pipeline.optimizer);
+  stages.exporters =
+      Maker<MapExporter>(ini_, "exporters", "map exporter", faults).all(pipeline.exporters);
+}
+
+/** Sections that nothing reads are faults; options of stages that take no part are checked too. */
+void SlamConfig::checkSections(Faults& faults) const {
+  static const std::vector<std::string> kSections = {
+      "plugins", "run", "input", "pipeline", "frontend", "registration", "base_station"};
+  for (const Ini::Section& section : ini_.sections()) {
+    const std::string& name = section.name;
+    const bool known = name.rfind(kRobotPrefix, 0) == 0 ||
+                       std::find(kSections.begin(), kSections.end(), name) != kSections.end();
+    if (known) continue;
+    if (name.rfind(kStagePrefix, 0) != 0) {
+      faults.add(section.where, "there is no section [" + name + "]" + didYouMean(name, kSections));
+      continue;
+    }
+    const StageName stage = StageName::parse(name.substr(kStagePrefix.size()));
+    std::vector<std::string> used = pipeline.candidates;
+    for (const auto* list : {&pipeline.verifiers, &pipeline.exporters})
+      used.insert(used.end(), list->begin(), list->end());
+    for (const auto* one : {&pipeline.odometry, &pipeline.priority, &pipeline.initial_aligner,
+                            &pipeline.refiner, &pipeline.optimizer})
+      used.push_back(*one);
+    if (std::find(used.begin(), used.end(), stage.text()) == used.end())
+      makeStage(stage, CLASS_ID(Stage), "stage", section.where, ini_, faults);
+  }
+}
+
+std::shared_ptr<OdometrySource> SlamConfig::makeOdometry() const {
+  Faults faults;
+  auto odometry =
+      Maker<OdometrySource>(ini_, "odometry", "odometry source", faults).one(pipeline.odometry);
+  faults.throwIfAny();
+  return odometry;
+}
+
+std::string SlamConfig::text() const {
+  SlamConfig copy = *this;  // visit() takes options that it may change
+  std::string text = writeOptions("plugins", copy.plugins) + "\n" + writeOptions("run", copy.run) +
+                     "\n" + writeOptions("input", copy.input) + "\n" +
+                     writeOptions("pipeline", copy.pipeline) + "\n" +
+                     writeOptions("frontend", copy.frontend) + "\n" +
+                     writeOptions("registration", copy.preparation) + "\n" +
+                     writeOptions("base_station", copy.base_station);
+  for (RobotOptions& robot : copy.robots)
+    text += "\n" + writeOptions(kRobotPrefix + robot.name, robot);
+
+  std::set<std::string> written;
+  const auto add = [&](const std::string& name, Stage& stage) {
+    const std::string section = StageName::parse(name).section();
+    if (written.insert(section).second) text += "\n" + writeOptions(section, stage);
+  };
+  add(pipeline.odometry, *makeOdometry());
+  for (const auto& stage : stages.candidates) add(stage->getLoggerName(), *stage);
+  add(pipeline.priority, *stages.priority);
+  add(pipeline.initial_aligner, *stages.initial_aligner);
+  add(pipeline.refiner, *stages.refiner);
+  for (const auto& stage : stages.verifiers) add(stage->getLoggerName(), *stage);
+  add(pipeline.optimizer, *stages.optimizer);
+  for (const auto& stage : stages.exporters) add(stage->getLoggerName(), *stage);
+  return text;
+}
+
+void registerAllClasses_lamp() {
+  registerAllClasses_lamp_core();
+  registerAllClasses_lamp_frontend();
+  registerAllClasses_lamp_loop_candidates();
+  registerAllClasses_lamp_loop_priority();
+  registerAllClasses_lamp_registration();
+  registerAllClasses_lamp_pose_graph();
+  registerAllClasses_lamp_maps();
+}
+
+std::string listStages() {
+  std::string text;
+  for (const StageKind& kind : stageKinds()) {
+    text += std::string(kind.name) + "s ([pipeline] " + kind.key + "):\n";
+    for (const std::string& name : stageClasses(kind.base)) text += "  " + name + "\n";
+  }
+  return text;
+}
+
+std::string describeParameters() {
+  const auto table = [](const std::string& section, auto&& options) {
+    MarkdownOptionWriter writer(section);
+    options.visit(writer);
+    return writer.text() + "\n";
+  };
+  std::string text = "## Sections\n\n";
+  text += table("plugins", PluginOptions{}) + table("run", RunOptions{}) +
+          table("input", InputOptions{}) + table("pipeline", PipelineOptions{}) +
+          table("frontend", FrontEndOptions{}) + table("registration", PreparationOptions{}) +
+          table("base_station", BaseStationOptions{}) + table("robot.NAME", RobotOptions{});
+  for (const StageKind& kind : stageKinds()) {
+    text += "## [pipeline] " + std::string(kind.key) + "\n\n";
+    for (const std::string& name : stageClasses(kind.base)) {
+      Faults faults;
+      const auto stage = makeStage(StageName{name, ""}, kind.base, kind.name, "", Ini{}, faults);
+      text += table(kStagePrefix + name, *stage);
+    }
+  }
+  return text;
+}
+
+}  // namespace lamp

@@ -1,0 +1,154 @@
+#include "lamp/base_station/SlamRun.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <thread>
+
+#include "FrontEndTeam.h"
+#include "Progress.h"
+#include "lamp/base_station/BaseStation.h"
+#include "lamp/base_station/RunWriter.h"
+#include "lamp/input/RawlogSource.h"
+#include "lamp/transport/InProcessQueue.h"
+
+namespace lamp {
+
+namespace {
+
+using mrpt::system::CTimeLogger;
+using mrpt::system::CTimeLoggerEntry;
+
+constexpr size_t kQueuedMessages = 16;
+
+/** Reads the input and runs the front ends on a thread of its own, ahead of the base station. */
+class FrontEndThread {
+ public:
+  FrontEndThread(RawlogSource& source, FrontEndTeam& team, InProcessQueue& queue,
+                 const std::atomic<bool>& interrupted)
+      : queue_(queue), thread_([this, &source, &team, &interrupted] {
+          try {
+            run(source, team, interrupted);
+          } catch (...) {
+            failure_ = std::current_exception();
+          }
+          queue_.closeSender();
+        }) {}
+
+  ~FrontEndThread() {
+    queue_.closeReceiver();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  /** Share of the input read. */
+  double progress() const { return progress_; }
+
+  /** Waits for the end and passes on what went wrong. */
+  void join() {
+    thread_.join();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void run(RawlogSource& source, FrontEndTeam& team, const std::atomic<bool>& interrupted) {
+    while (!interrupted) {
+      const auto observation = source.next();
+      if (!observation || !team.observe(*observation)) break;
+      progress_ = source.progress();
+    }
+    team.finish();
+  }
+
+  InProcessQueue& queue_;
+  std::atomic<double> progress_{0};
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+std::string describeLoops(const BaseStation& base) {
+  size_t verified = 0;
+  for (const LedgerRow& row : base.ledger().rows()) verified += row.outcome.accepted ? 1 : 0;
+  return std::to_string(base.graph().nodes().size()) + " key nodes, " + std::to_string(verified) +
+         " loop closures verified of " + std::to_string(base.ledger().rows().size());
+}
+
+/** Why no key node came out, from what the front ends and the input say. */
+std::string explainEmptyRun(const std::vector<FrontEndReport>& reports, const RobotTable& robots,
+                            const std::vector<std::string>& input_warnings) {
+  std::string text = "there is no key node to map:";
+  for (const FrontEndReport& report : reports)
+    for (const std::string& warning : report.warnings)
+      text += "\n  robot '" + robots.name(report.robot) + "': " + warning;
+  for (const std::string& warning : input_warnings) text += "\n  " + warning;
+  if (reports.empty()) text += "\n  the input holds no observation of any robot";
+  return text;
+}
+
+/** Paths in the effective ini must hold from any folder. */
+void makePathsAbsolute(SlamConfig& config, const std::vector<std::string>& rawlogs) {
+  namespace fs = std::filesystem;
+  for (RobotOptions& robot : config.robots)
+    for (std::string* path : {&robot.rawlog, &robot.odometry_file})
+      if (!path->empty()) *path = fs::absolute(*path).lexically_normal().string();
+  for (const std::string& rawlog : rawlogs)
+    config.input.rawlogs.push_back(fs::absolute(rawlog).lexically_normal().string());
+}
+
+}  // namespace
+
+SlamRun::SlamRun(SlamConfig config, Job job, const std::atomic<bool>& interrupted)
+    : COutputLogger("lamp-slam"),
+      config_(std::move(config)),
+      job_(std::move(job)),
+      interrupted_(interrupted) {
+  makePathsAbsolute(config_, job_.rawlogs);
+}
+
+void SlamRun::warn(const std::vector<std::string>& warnings, const std::string& prefix) {
+  for (const std::string& warning : warnings) MRPT_LOG_WARN_STREAM(prefix << warning);
+}
+
+std::string SlamRun::run() {
+  RobotTable robots;
+  RawlogSource source(config_.input.rawlogs, config_.robots, robots);
+  const RunFolder folder = RunFolder::create(job_.out);
+  const tbb::global_control thread_limit(tbb::global_control::max_allowed_parallelism,
+                                         static_cast<size_t>(job_.threads));
+  CTimeLogger timer(true, "lamp-slam", true);
+  BaseStation base_station(config_, timer);
+  base_station.setMinLoggingLevel(getMinLoggingLevel());
+
+  InProcessQueue queue(kQueuedMessages);
+  FrontEndTeam team(config_, queue);
+  Progress progress;
+  {
+    const CTimeLoggerEntry timing(timer, "run");
+    FrontEndThread front_end(source, team, queue, interrupted_);
+    tbb::task_arena arena(job_.threads);
+    arena.execute([&] {
+      while (const auto message = queue.receive()) {
+        std::visit([&](const auto& content) { base_station.receive(content); }, *message);
+        progress.show(front_end.progress(), describeLoops(base_station));
+      }
+      base_station.finish(interrupted_);
+    });
+    front_end.join();
+  }
+  progress.clear();
+
+  RunResult result{config_, robots, base_station, team.reports(), source.warnings(), interrupted_};
+  if (base_station.graph().nodes().empty())
+    throw std::runtime_error(explainEmptyRun(result.reports, robots, result.input_warnings));
+  warn(result.input_warnings);
+  for (const FrontEndReport& report : result.reports)
+    warn(report.warnings, "robot '" + robots.name(report.robot) + "': ");
+  writeRun(folder, result, timer);
+  writeTimings(folder, timer, job_.threads);
+  timer.clear(true);
+  return describeRun(folder, result);
+}
+
+}  // namespace lamp

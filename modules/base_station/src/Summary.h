@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "lamp/base_station/RunWriter.h"
+
+namespace lamp {
+
+/** How many loop closures came how far. */
+struct LoopCounts {
+  size_t candidates = 0;  ///< proposed by the generators, with proposals made again
+  size_t attempts = 0;    ///< computed
+  size_t verified = 0;    ///< accepted by all verifiers
+  size_t inliers = 0;     ///< kept by the back end
+};
+
+/** Inlier loop closures of one component. */
+struct ComponentLoops {
+  size_t within_robots = 0;
+  size_t between_robots = 0;
+};
+
+LoopCounts countLoops(const BaseStation& base_station);
+ComponentLoops countLoops(const PoseGraph& graph, const Component& component);
+
+/** The content of summary.json. */
+nlohmann::ordered_json summarize(const RunResult& result);
+
+}  // namespace lamp

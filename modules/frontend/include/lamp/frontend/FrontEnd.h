@@ -1,0 +1,88 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lamp/core/KeyframePacket.h"
+#include "lamp/frontend/MotionModel.h"
+#include "lamp/frontend/OdometrySource.h"
+#include "lamp/input/ScanFromObservation.h"
+#include "lamp/scans/VoxelFilter.h"
+
+namespace lamp {
+
+struct FrontEndOptions {
+  double key_node_distance_m = 2.0;
+  double key_node_angle_deg = 30.0;
+  double merge_window_s = 0.2;
+  ScanOptions scan;
+  AdaptiveVoxelOptions voxel;
+  MotionModelOptions motion;
+
+  void visit(OptionVisitor& v);
+};
+
+/** The single-robot front end (paper II-B): turns one robot's observations into a sparse pose graph
+ * segment with keyed scans. */
+class FrontEnd {
+ public:
+  FrontEnd(RobotId robot, const FrontEndOptions& options, std::shared_ptr<OdometrySource> odometry,
+           std::optional<StartPrior> prior);
+
+  /** \return the key nodes that the observation completes, in time order. */
+  std::vector<KeyframePacket> observe(const InputObservation& observation);
+  /** Handles what still waits for odometry, and closes the stream. */
+  std::vector<KeyframePacket> finish();
+  /** The scans after the last key node; to be called after finish(). */
+  RobotEnd end();
+
+  struct Counts {
+    size_t scans = 0;  ///< of the reference lidar
+    size_t key_nodes = 0;
+    size_t empty_scans = 0;       ///< no usable point where a key node was due
+    size_t without_odometry = 0;  ///< scans that no odometry covers
+    size_t unreadable_scans = 0;  ///< whose external file could not be read
+  };
+  const Counts& counts() const { return counts_; }
+  std::vector<std::string> warnings() const;
+
+ private:
+  struct WaitingScan {
+    double stamp;
+    InputObservation observation;
+    std::vector<InputObservation> others;  ///< the latest scan of each other lidar
+  };
+
+  void takeLidar(const InputObservation& observation);
+  std::vector<KeyframePacket> processCoveredScans();
+  std::optional<KeyframePacket> processScan(const WaitingScan& waiting);
+  bool isKeyNode(const Pose3& odom_T_base) const;
+  Scan mergedScan(const WaitingScan& waiting, const Pose3& odom_T_base);
+  void appendScan(const InputObservation& observation, const Pose3& base_T_scan, Scan& merged);
+  KeyframePacket makePacket(double stamp, const Pose3& odom_T_base, Scan scan);
+  Matrix6d motionCovariance(double stamp);
+
+  const RobotId robot_;
+  const FrontEndOptions options_;
+  const std::shared_ptr<OdometrySource> odometry_;
+  const std::optional<StartPrior> prior_;
+  AdaptiveVoxelFilter voxel_filter_;
+
+  std::optional<std::string> reference_lidar_;
+  std::map<std::string, InputObservation> latest_other_;
+  std::deque<WaitingScan> waiting_;
+
+  std::optional<StampedPose> last_key_;
+  std::optional<Pose3> last_scan_pose_;
+  Path path_since_key_;
+  std::vector<StampedPose> passed_scans_;
+  bool planar_lidar_ = true;
+  Counts counts_;
+  std::string first_unreadable_;
+};
+
+}  // namespace lamp

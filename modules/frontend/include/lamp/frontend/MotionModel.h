@@ -1,0 +1,30 @@
+#pragma once
+
+#include "lamp/core/Geometry.h"
+#include "lamp/core/Options.h"
+
+namespace lamp {
+
+struct MotionModelOptions {
+  double sigma_m_per_m = 0.02;
+  double sigma_rad_per_m = 0.003;
+  double sigma_rad_per_rad = 0.02;
+  double min_sigma_m = 0.003;
+  double min_sigma_rad = 0.0025;
+
+  void visit(OptionVisitor& v);
+};
+
+/** What a robot went through between two key nodes. */
+struct Path {
+  double length_m = 0;
+  double turned_rad = 0;
+
+  void add(const Pose3& motion);
+};
+
+/** Covariance of odometry over a path: grows with the way and the turning, and is never below the
+ * fixed values of LAMP for an edge. */
+Matrix6d odometryCovariance(const Path& path, const MotionModelOptions& options);
+
+}  // namespace lamp

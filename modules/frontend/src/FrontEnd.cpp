@@ -1,0 +1,182 @@
+#include "lamp/frontend/FrontEnd.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace lamp {
+
+namespace {
+
+/** Scans wait for the odometry that follows them; if none comes, memory must not grow. */
+constexpr size_t kMaxWaitingScans = 200;
+
+void append(const Scan& scan, const Pose3& target_T_scan, Scan& target) {
+  const auto first_sensor = static_cast<uint8_t>(target.sensors.size());
+  for (SensorOrigin origin : scan.sensors) {
+    origin.position = target_T_scan * origin.position;
+    target.sensors.push_back(origin);
+  }
+  const bool keep_intensity =
+      scan.hasIntensity() && (target.hasIntensity() || target.points.empty());
+  const Eigen::Isometry3f T = target_T_scan.cast<float>();
+  for (size_t i = 0; i < scan.size(); ++i) {
+    target.points.push_back(T * scan.points[i]);
+    target.sensor.push_back(static_cast<uint8_t>(first_sensor + scan.sensor[i]));
+    if (keep_intensity)
+      target.intensity.push_back(scan.intensity[i]);
+    else if (target.hasIntensity())
+      target.intensity.push_back(0.0f);
+  }
+}
+
+}  // namespace
+
+void FrontEndOptions::visit(OptionVisitor& v) {
+  v("key_node_distance_m", key_node_distance_m, "m", "a new key node after this motion", kPositive);
+  v("key_node_angle_deg", key_node_angle_deg, "deg", "a new key node after this turning",
+    kPositive);
+  v("merge_window_s", merge_window_s, "s",
+    "scans of a robot's other lidars join a keyed scan if they are no older", kNotNegative);
+  scan.visit(v);
+  voxel.visit(v);
+  motion.visit(v);
+}
+
+FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
+                   std::shared_ptr<OdometrySource> odometry, std::optional<StartPrior> prior)
+    : robot_(robot),
+      options_(options),
+      odometry_(std::move(odometry)),
+      prior_(std::move(prior)),
+      voxel_filter_(options.voxel) {}
+
+std::vector<KeyframePacket> FrontEnd::observe(const InputObservation& observation) {
+  odometry_->observe(observation);
+  if (isLidar(*observation.observation)) takeLidar(observation);
+  return processCoveredScans();
+}
+
+void FrontEnd::takeLidar(const InputObservation& observation) {
+  if (!reference_lidar_) reference_lidar_ = observation.label;
+  if (observation.label != *reference_lidar_) {
+    latest_other_[observation.label] = observation;
+    return;
+  }
+  ++counts_.scans;
+  if (waiting_.size() == kMaxWaitingScans) {
+    waiting_.pop_front();
+    ++counts_.without_odometry;
+  }
+  WaitingScan waiting{observation.stamp, observation, {}};
+  for (const auto& [label, other] : latest_other_)
+    if (observation.stamp - other.stamp <= options_.merge_window_s) waiting.others.push_back(other);
+  waiting_.push_back(std::move(waiting));
+}
+
+std::vector<KeyframePacket> FrontEnd::processCoveredScans() {
+  std::vector<KeyframePacket> packets;
+  while (!waiting_.empty() && odometry_->covers(waiting_.front().stamp)) {
+    if (auto packet = processScan(waiting_.front())) packets.push_back(std::move(*packet));
+    waiting_.pop_front();
+  }
+  return packets;
+}
+
+std::vector<KeyframePacket> FrontEnd::finish() {
+  std::vector<KeyframePacket> packets;
+  for (const WaitingScan& waiting : waiting_) {
+    if (odometry_->empty())
+      ++counts_.without_odometry;
+    else if (auto packet = processScan(waiting))
+      packets.push_back(std::move(*packet));
+  }
+  waiting_.clear();
+  return packets;
+}
+
+RobotEnd FrontEnd::end() {
+  return {robot_, std::move(passed_scans_)};
+}
+
+std::optional<KeyframePacket> FrontEnd::processScan(const WaitingScan& waiting) {
+  const Pose3 odom_T_base = odometry_->poseAt(waiting.stamp);
+  if (last_scan_pose_) path_since_key_.add(last_scan_pose_->inverse() * odom_T_base);
+  last_scan_pose_ = odom_T_base;
+
+  if (isKeyNode(odom_T_base)) {
+    Scan scan = voxel_filter_.filter(mergedScan(waiting, odom_T_base));
+    planar_lidar_ = planar_lidar_ && isPlanarLaser(*waiting.observation.observation);
+    if (!scan.points.empty()) return makePacket(waiting.stamp, odom_T_base, std::move(scan));
+    ++counts_.empty_scans;
+  }
+  passed_scans_.push_back({waiting.stamp, odom_T_base});
+  return std::nullopt;
+}
+
+/** Paper II-B: a new key node when the robot has moved or turned enough. */
+bool FrontEnd::isKeyNode(const Pose3& odom_T_base) const {
+  if (!last_key_) return true;
+  const Pose3 motion = last_key_->pose.inverse() * odom_T_base;
+  return motion.translation().norm() >= options_.key_node_distance_m ||
+         rotationAngle(motion) * 180.0 / M_PI >= options_.key_node_angle_deg;
+}
+
+Scan FrontEnd::mergedScan(const WaitingScan& waiting, const Pose3& odom_T_base) {
+  Scan merged;
+  appendScan(waiting.observation, Pose3::Identity(), merged);
+  for (const InputObservation& other : waiting.others)
+    appendScan(other, odom_T_base.inverse() * odometry_->poseAt(other.stamp), merged);
+  return merged;
+}
+
+void FrontEnd::appendScan(const InputObservation& observation, const Pose3& base_T_scan,
+                          Scan& merged) {
+  try {
+    const auto scan =
+        scanFromObservation(*observation.observation, observation.label, options_.scan);
+    if (scan) append(*scan, base_T_scan, merged);
+  } catch (const std::runtime_error& error) {
+    if (counts_.unreadable_scans++ == 0) first_unreadable_ = error.what();
+  }
+}
+
+KeyframePacket FrontEnd::makePacket(double stamp, const Pose3& odom_T_base, Scan scan) {
+  KeyframePacket packet;
+  packet.id = {robot_, static_cast<uint32_t>(counts_.key_nodes++)};
+  packet.stamp = stamp;
+  packet.odom_T_base = odom_T_base;
+  packet.planar = planar_lidar_ && odometry_->planar();
+  packet.scan = std::make_shared<const Scan>(std::move(scan));
+  packet.passed_scans = std::move(passed_scans_);
+  passed_scans_.clear();
+  if (last_key_)
+    packet.odometry = {last_key_->pose.inverse() * odom_T_base, motionCovariance(stamp)};
+  else
+    packet.prior = prior_;
+  last_key_ = StampedPose{stamp, odom_T_base};
+  path_since_key_ = {};
+  return packet;
+}
+
+Matrix6d FrontEnd::motionCovariance(double stamp) {
+  if (const auto recorded = odometry_->covarianceBetween(last_key_->stamp, stamp)) return *recorded;
+  return odometryCovariance(path_since_key_, options_.motion);
+}
+
+std::vector<std::string> FrontEnd::warnings() const {
+  std::vector<std::string> result = odometry_->warnings();
+  if (counts_.scans == 0) result.push_back("there are no lidar scans");
+  if (counts_.without_odometry > 0)
+    result.push_back(std::to_string(counts_.without_odometry) + " of " +
+                     std::to_string(counts_.scans) +
+                     " scans were dropped: no odometry covers them");
+  if (counts_.unreadable_scans > 0)
+    result.push_back(std::to_string(counts_.unreadable_scans) +
+                     " scans could not be read, the first: " + first_unreadable_);
+  if (counts_.empty_scans > 0)
+    result.push_back(std::to_string(counts_.empty_scans) +
+                     " scans had no usable point and could not become key nodes");
+  return result;
+}
+
+}  // namespace lamp

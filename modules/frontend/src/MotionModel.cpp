@@ -1,0 +1,34 @@
+#include "lamp/frontend/MotionModel.h"
+
+#include <cmath>
+
+namespace lamp {
+
+void MotionModelOptions::visit(OptionVisitor& v) {
+  v("sigma_m_per_m", sigma_m_per_m, "m/m", "odometry's position error per metre of way",
+    kNotNegative);
+  v("sigma_rad_per_m", sigma_rad_per_m, "rad/m", "odometry's rotation error per metre of way",
+    kNotNegative);
+  v("sigma_rad_per_rad", sigma_rad_per_rad, "rad/rad", "odometry's rotation error per turning",
+    kNotNegative);
+  v("min_sigma_m", min_sigma_m, "m", "least position error of an odometry edge", kPositive);
+  v("min_sigma_rad", min_sigma_rad, "rad", "least rotation error of an odometry edge", kPositive);
+}
+
+void Path::add(const Pose3& motion) {
+  length_m += motion.translation().norm();
+  turned_rad += rotationAngle(motion);
+}
+
+Matrix6d odometryCovariance(const Path& path, const MotionModelOptions& options) {
+  const double sigma_m = std::hypot(options.min_sigma_m, options.sigma_m_per_m * path.length_m);
+  const double sigma_rad =
+      std::hypot(options.min_sigma_rad, options.sigma_rad_per_m * path.length_m,
+                 options.sigma_rad_per_rad * path.turned_rad);
+  Vector6d variances;
+  variances.head<3>().setConstant(sigma_m * sigma_m);
+  variances.tail<3>().setConstant(sigma_rad * sigma_rad);
+  return variances.asDiagonal();
+}
+
+}  // namespace lamp

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lamp/core/Ids.h"
+#include "lamp/input/RawlogReader.h"
+
+namespace lamp {
+
+/** What became of the observations of one class under one label. */
+struct LabelReport {
+  std::string label;  ///< without the robot's part
+  std::string class_name;
+  bool lidar = false;
+  bool odometry = false;
+  size_t used = 0;
+  size_t repeated = 0;    ///< dropped: the stamp of the one before
+  size_t backwards = 0;   ///< dropped: stamp before the one before
+  size_t left_out = 0;    ///< dropped: the options choose other odometry or lidars
+  size_t unloadable = 0;  ///< dropped: the file with its data cannot be loaded
+};
+
+struct RobotReport {
+  RobotId robot;
+  std::string name;
+  std::string path;                 ///< the rawlog its observations come from; empty if none came
+  std::vector<LabelReport> labels;  ///< in order of appearance
+};
+
+struct RecordingReport {
+  RawlogReport file;
+  size_t without_stamp = 0;  ///< observations that were dropped because they have no stamp
+};
+
+}  // namespace lamp

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lamp/core/Options.h"
+
+namespace lamp {
+
+/** What the ini's section `[robot.NAME]` says of one robot. */
+struct RobotOptions {
+  std::string name;  ///< NAME of the section; no key of its own
+
+  std::string rawlog;
+  std::string key;
+  std::vector<double> start_pose;
+  double start_sigma_xyz_m = 0;
+  double start_sigma_rot_deg = 0;
+  std::string odometry_file;
+  std::string odometry_label;
+  std::vector<std::string> lidar_labels;
+
+  void visit(OptionVisitor& v);
+};
+
+}  // namespace lamp

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <optional>
+#include <string>
+
+#include "lamp/core/KeyedScan.h"
+#include "lamp/core/Options.h"
+
+namespace lamp {
+
+/** Which returns of a lidar are used. */
+struct ScanOptions {
+  double min_range_m = 0.1;
+  double max_range_m = 120.0;
+
+  void visit(OptionVisitor& v);
+};
+
+/** CObservationPointCloud, CObservationVelodyneScan, CObservationRotatingScan,
+ * CObservation3DRangeScan, or CObservation2DRangeScan. */
+bool isLidar(const mrpt::obs::CObservation& observation);
+
+/** A 2D laser whose plane is level on the robot to within 2 degrees. */
+bool isPlanarLaser(const mrpt::obs::CObservation& observation);
+
+/** Points of a lidar observation in the base frame, with the sensor as the one origin of the rays.
+ *
+ * Left out are points that are not finite, returns that the sensor marks as invalid, and ranges
+ * outside the options' and the sensor's own limits. Intensity is 0 to 1 for lidars that give bytes,
+ * else as recorded; empty where there is none.
+ *
+ * \return none if the class is no lidar; a scan without points if it saw nothing.
+ * \throws std::runtime_error if a cloud that is stored in a file of its own cannot be loaded, or if
+ *  a CObservationRotatingScan has several rows but no model from which their elevation is known. */
+std::optional<Scan> scanFromObservation(const mrpt::obs::CObservation& observation,
+                                        const std::string& label, const ScanOptions& options);
+
+}  // namespace lamp

@@ -1,0 +1,120 @@
+#include "InputWarnings.h"
+
+#include <algorithm>
+
+namespace lamp {
+namespace {
+
+using Labels = std::vector<LabelReport>;
+
+std::string counted(size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+template <class Predicate>
+std::string listLabels(const Labels& labels, Predicate predicate) {
+  std::string list;
+  for (const LabelReport& label : labels) {
+    if (!predicate(label)) continue;
+    list += (list.empty() ? "'" : ", '") + label.label + "'";
+  }
+  return list.empty() ? "none" : list;
+}
+
+bool isRecordedLidar(const LabelReport& label) {
+  return label.lidar;
+}
+bool isRecordedOdometry(const LabelReport& label) {
+  return label.odometry;
+}
+
+template <class Predicate>
+bool hasLabel(const Labels& labels, const std::string& wanted, Predicate predicate) {
+  return std::any_of(labels.begin(), labels.end(),
+                     [&](const LabelReport& l) { return predicate(l) && l.label == wanted; });
+}
+
+void warnOfDrops(const LabelReport& label, const std::string& who,
+                 std::vector<std::string>& warnings) {
+  const std::string what = who + "label '" + label.label + "' (" + label.class_name + "): ";
+  if (label.repeated > 0) {
+    warnings.push_back(what + counted(label.repeated, "observation") +
+                       " dropped whose stamp repeats the one before");
+  }
+  if (label.backwards > 0) {
+    warnings.push_back(what + counted(label.backwards, "observation") +
+                       " dropped whose stamp goes back in time");
+  }
+  if (label.unloadable > 0) {
+    warnings.push_back(what + counted(label.unloadable, "observation") +
+                       " dropped whose data file is missing or damaged");
+  }
+}
+
+void warnOfChoices(const RobotReport& robot, const RobotOptions& options, const std::string& who,
+                   std::vector<std::string>& warnings) {
+  for (const std::string& wanted : options.lidar_labels) {
+    if (hasLabel(robot.labels, wanted, isRecordedLidar)) continue;
+    warnings.push_back(who + "no lidar has the label '" + wanted + "' of lidar_labels; there are " +
+                       listLabels(robot.labels, isRecordedLidar));
+  }
+  const std::string& wanted = options.odometry_label;
+  if (!options.odometry_file.empty()) return;
+  if (!wanted.empty() && !hasLabel(robot.labels, wanted, isRecordedOdometry)) {
+    warnings.push_back(who + "no odometry has the label '" + wanted +
+                       "' of odometry_label; there are " +
+                       listLabels(robot.labels, isRecordedOdometry));
+  }
+  for (const LabelReport& label : robot.labels) {
+    if (!label.odometry || label.left_out == 0 || !wanted.empty()) continue;
+    warnings.push_back(who + "odometry with the label '" + label.label + "' (" + label.class_name +
+                       ") is not used, as other odometry came first; set odometry_label to choose");
+  }
+}
+
+void warnOfMissing(const RobotReport& robot, const std::string& who,
+                   std::vector<std::string>& warnings) {
+  const auto usesAny = [&](auto predicate) {
+    return std::any_of(robot.labels.begin(), robot.labels.end(),
+                       [&](const LabelReport& l) { return predicate(l) && l.used > 0; });
+  };
+  if (!usesAny(isRecordedLidar)) warnings.push_back(who + "no lidar scan");
+  if (!usesAny(isRecordedOdometry)) warnings.push_back(who + "no odometry");
+}
+
+}  // namespace
+
+std::vector<std::string> recordingWarnings(const RecordingReport& recording) {
+  std::vector<std::string> warnings;
+  const RawlogReport& file = recording.file;
+  for (const std::string& message : file.messages) warnings.push_back(file.path + ": " + message);
+  for (const auto& [name, count] : file.unknown_classes) {
+    warnings.push_back(file.path + ": " + counted(count, "object") + " of the unknown class " +
+                       name + " skipped; load the plugin that defines it, if you need them");
+  }
+  if (file.damaged_objects > 0) {
+    warnings.push_back(file.path + ": " + counted(file.damaged_objects, "object") +
+                       " could not be read; " + std::to_string(file.objects) + " were read, " +
+                       counted(file.bytes_skipped, "byte") + " skipped");
+  }
+  if (recording.without_stamp > 0) {
+    warnings.push_back(file.path + ": " + counted(recording.without_stamp, "observation") +
+                       " dropped that have no stamp");
+  }
+  return warnings;
+}
+
+std::vector<std::string> robotWarnings(const RobotReport& robot, const RobotOptions& options) {
+  std::vector<std::string> warnings;
+  const std::string who = "robot '" + robot.name + "': ";
+  if (robot.labels.empty()) {
+    warnings.push_back(who + "no observation; no rawlog names it, by option or by label");
+    return warnings;
+  }
+  for (const LabelReport& label : robot.labels) warnOfDrops(label, who, warnings);
+  warnOfChoices(robot, options, who, warnings);
+  warnOfMissing(robot, who, warnings);
+  return warnings;
+}
+
+}  // namespace lamp

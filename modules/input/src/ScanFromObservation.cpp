@@ -1,0 +1,87 @@
+#include "lamp/input/ScanFromObservation.h"
+
+#include <cmath>
+
+#include "MrptPoses.h"
+#include "SensorReturns.h"
+
+namespace lamp {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationPointCloud;
+using mrpt::obs::CObservationRotatingScan;
+using mrpt::obs::CObservationVelodyneScan;
+
+constexpr double kLevel = 2.0 * M_PI / 180.0;
+
+template <class T>
+bool is(const CObservation& observation) {
+  return dynamic_cast<const T*>(&observation) != nullptr;
+}
+
+template <class T>
+bool takeReturns(const CObservation& observation, std::optional<SensorReturns>& returns) {
+  const auto* typed = dynamic_cast<const T*>(&observation);
+  if (typed) returns = returnsOf(*typed);
+  return typed != nullptr;
+}
+
+std::optional<SensorReturns> returnsOfAny(const CObservation& observation) {
+  std::optional<SensorReturns> returns;
+  takeReturns<CObservationPointCloud>(observation, returns) ||
+      takeReturns<CObservationVelodyneScan>(observation, returns) ||
+      takeReturns<CObservationRotatingScan>(observation, returns) ||
+      takeReturns<CObservation3DRangeScan>(observation, returns) ||
+      takeReturns<CObservation2DRangeScan>(observation, returns);
+  return returns;
+}
+
+}  // namespace
+
+void ScanOptions::visit(OptionVisitor& v) {
+  v("min_range_m", min_range_m, "m", "Returns nearer to the lidar are left out.", kNotNegative);
+  v("max_range_m", max_range_m, "m", "Returns farther from the lidar are left out.", kPositive);
+}
+
+bool isLidar(const CObservation& o) {
+  return is<CObservationPointCloud>(o) || is<CObservationVelodyneScan>(o) ||
+         is<CObservationRotatingScan>(o) || is<CObservation3DRangeScan>(o) ||
+         is<CObservation2DRangeScan>(o);
+}
+
+bool isPlanarLaser(const CObservation& observation) {
+  const auto* laser = dynamic_cast<const CObservation2DRangeScan*>(&observation);
+  return laser && std::abs(laser->sensorPose.pitch()) < kLevel &&
+         std::abs(laser->sensorPose.roll()) < kLevel;
+}
+
+std::optional<Scan> scanFromObservation(const CObservation& observation, const std::string& label,
+                                        const ScanOptions& options) {
+  const auto returns = returnsOfAny(observation);
+  if (!returns) return {};
+  mrpt::poses::CPose3D sensor_pose;
+  observation.getSensorPose(sensor_pose);
+  const Pose3 base_T_sensor = poseFromMrpt(sensor_pose);
+  const Eigen::Isometry3f transform = base_T_sensor.cast<float>();
+  const double max_range = std::min(options.max_range_m, returns->max_range_m);
+
+  Scan scan;
+  scan.sensors.push_back({label, base_T_sensor.translation()});
+  scan.points.reserve(returns->points.size());
+  const bool has_intensity = !returns->intensity.empty();
+  for (size_t i = 0; i < returns->points.size(); ++i) {
+    const Eigen::Vector3f& point = returns->points[i];
+    const double range = point.cast<double>().norm();
+    // Written so that a range that is not a number fails; zero is the mark of a missing return.
+    if (!(range > 0 && range >= options.min_range_m && range <= max_range)) continue;
+    scan.points.push_back(transform * point);
+    if (has_intensity) scan.intensity.push_back(returns->intensity[i]);
+  }
+  scan.sensor.assign(scan.points.size(), 0);
+  return scan;
+}
+
+}  // namespace lamp

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+namespace lamp {
+
+/** Returns of a lidar in its own frame, unfiltered but for what the sensor marks as invalid. */
+struct SensorReturns {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<float> intensity;  ///< empty, or as long as `points`
+  double max_range_m = std::numeric_limits<double>::infinity();
+};
+
+SensorReturns returnsOf(const mrpt::obs::CObservationPointCloud& observation);
+SensorReturns returnsOf(const mrpt::obs::CObservationVelodyneScan& observation);
+SensorReturns returnsOf(const mrpt::obs::CObservationRotatingScan& observation);
+SensorReturns returnsOf(const mrpt::obs::CObservation3DRangeScan& observation);
+SensorReturns returnsOf(const mrpt::obs::CObservation2DRangeScan& observation);
+
+}  // namespace lamp

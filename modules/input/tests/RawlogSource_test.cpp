@@ -1,0 +1,235 @@
+#include "lamp/input/RawlogSource.h"
+
+#include <gmock/gmock.h>
+
+#include "RecordingTools.h"
+#include "lamp/input/OdometryFromObservation.h"
+#include "lamp/input/ScanFromObservation.h"
+
+namespace lamp {
+namespace {
+
+using namespace test;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class RawlogSourceTest : public testing::Test {
+ protected:
+  std::string write(const std::string& name, const Objects& objects) {
+    const std::string path = folder_ + "/" + name;
+    writeGzFile(path, bytesOf(objects));
+    return path;
+  }
+
+  /** Reads to the end; `robot:label@stamp` of each observation. */
+  std::vector<std::string> drain(RawlogSource& source) {
+    std::vector<std::string> all;
+    while (const auto o = source.next()) {
+      all.push_back(table_.name(o->robot) + ":" + o->label + "@" +
+                    std::to_string(static_cast<int>(o->stamp * 10)));
+    }
+    return all;
+  }
+
+  std::string errorOf(const std::vector<std::string>& rawlogs,
+                      const std::vector<RobotOptions>& robots = {}) {
+    try {
+      RawlogSource source(rawlogs, robots, table_);
+      drain(source);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  static RobotOptions robot(const std::string& name, const std::string& rawlog = "") {
+    RobotOptions options;
+    options.name = name;
+    options.rawlog = rawlog;
+    return options;
+  }
+
+  const std::string folder_ = freshFolder();
+  RobotTable table_;
+};
+
+TEST_F(RawlogSourceTest, LabelsNameRobots) {
+  const auto path = write("team.rawlog", {wheels(1, "r1/odo"), cloud(2, "r2/lidar/top")});
+  RawlogSource source({path}, {}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("r1:odo@10", "r2:lidar/top@20"));
+  EXPECT_EQ(source.progress(), 1.0);
+  EXPECT_FALSE(source.next());
+}
+
+TEST_F(RawlogSourceTest, IniThenStemNameTheRest) {
+  const auto a = write("a.rawlog", {wheels(1, "odo")});
+  const auto b = write("run b.rawlog", {wheels(2, "/odo")});
+  RawlogSource source({b}, {robot("husky", a)}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("husky:odo@10", "run_b:/odo@20"));
+}
+
+TEST_F(RawlogSourceTest, RobotsOfTheIniComeFirstWithTheirLetters) {
+  auto husky = robot("husky");
+  husky.key = "h";
+  const auto path = write("x.rawlog", {wheels(1, "other/odo"), wheels(2, "husky/odo")});
+  RawlogSource source({path}, {husky, robot("absent")}, table_);
+  drain(source);
+  ASSERT_EQ(table_.size(), 3u);
+  EXPECT_EQ(table_.name(RobotId{0}), "husky");
+  EXPECT_EQ(table_.letter(RobotId{0}), 'h');
+  EXPECT_EQ(table_.name(RobotId{1}), "absent");
+  EXPECT_EQ(table_.name(RobotId{2}), "other");
+  EXPECT_THAT(source.warnings(), Contains(HasSubstr("robot 'absent': no observation")));
+}
+
+TEST_F(RawlogSourceTest, ClashesAreErrors) {
+  const auto a = write("a.rawlog", {wheels(1, "husky/odo")});
+  const auto b = write("b.rawlog", {wheels(2, "husky/odo")});
+  const std::string error = errorOf({a, b});
+  EXPECT_THAT(error, testing::AllOf(HasSubstr("robot 'husky'"), HasSubstr(a), HasSubstr(b)));
+}
+
+TEST_F(RawlogSourceTest, WrongAndRepeatedKeysAreErrors) {
+  const auto a = write("a.rawlog", {wheels(1, "odo")});
+  auto one = robot("one"), two = robot("two");
+  one.key = "xy";
+  EXPECT_THAT(errorOf({a}, {one}), HasSubstr("[robot.one] key = xy"));
+  table_ = {};
+  one.key = two.key = "x";
+  EXPECT_NE(errorOf({a}, {one, two}), "no error");
+}
+
+TEST_F(RawlogSourceTest, OneFileOfTwoRobotsNeedsLabels) {
+  const auto good = write("good.rawlog", {wheels(1, "one/odo"), wheels(2, "two/odo")});
+  EXPECT_EQ(errorOf({good}, {robot("one", good), robot("two", good)}), "no error");
+  table_ = {};
+  const auto bad = write("bad.rawlog", {wheels(1, "odo")});
+  EXPECT_THAT(errorOf({}, {robot("one", bad), robot("two", bad)}), HasSubstr("label 'odo'"));
+}
+
+TEST_F(RawlogSourceTest, NoRawlogAndMissingFilesAreErrors) {
+  EXPECT_THAT(errorOf({}), HasSubstr("no rawlog"));
+  EXPECT_THAT(errorOf({folder_ + "/gone.rawlog"}), HasSubstr("gone.rawlog: no such file"));
+}
+
+TEST_F(RawlogSourceTest, MergesFilesInTimeOrder) {
+  const auto a = write("a.rawlog", {wheels(1, "o"), wheels(3, "o"), wheels(5, "o")});
+  const auto b = write("b.rawlog", {wheels(2, "o"), wheels(4, "o")});
+  RawlogSource source({a, b}, {}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("a:o@10", "b:o@20", "a:o@30", "b:o@40", "a:o@50"));
+}
+
+TEST_F(RawlogSourceTest, SortsWhatWasWrittenLate) {
+  const auto path = write("a.rawlog", {wheels(1, "o"), wheels(1.5, "o"), cloud(1.2, "l"),
+                                       wheels(9, "o"), cloud(8.9, "l")});
+  RawlogSource source({path}, {}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("a:o@10", "a:l@12", "a:o@15", "a:l@89", "a:o@90"));
+}
+
+TEST_F(RawlogSourceTest, DropsRepeatedAndBackwardStamps) {
+  const auto path = write("a.rawlog", {wheels(1, "o"), wheels(1, "o"), wheels(2, "o"),
+                                       wheels(1.5, "o"), cloud(1, "o"), wheels(3, "o")});
+  RawlogSource source({path}, {}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("a:o@10", "a:o@10", "a:o@20", "a:o@30"));
+  const LabelReport& report = source.robots().at(0).labels.at(0);
+  EXPECT_EQ(report.used, 3u);
+  EXPECT_EQ(report.repeated, 1u);
+  EXPECT_EQ(report.backwards, 1u);
+  EXPECT_THAT(source.warnings(), Contains(HasSubstr("repeats the one before")));
+  EXPECT_THAT(source.warnings(), Contains(HasSubstr("goes back in time")));
+}
+
+TEST_F(RawlogSourceTest, OdometryLabelChooses) {
+  const auto path = write("a.rawlog", {wheels(1, "wheels"), wheels(2, "visual"), cloud(2, "l")});
+  auto options = robot("a", path);
+  {
+    RawlogSource source({}, {options}, table_);
+    EXPECT_THAT(drain(source), ElementsAre("a:wheels@10", "a:l@20"));
+    EXPECT_THAT(source.warnings(), ElementsAre(HasSubstr("label 'visual'")));
+  }
+  table_ = {};
+  options.odometry_label = "visual";
+  {
+    RawlogSource source({}, {options}, table_);
+    EXPECT_THAT(drain(source), ElementsAre("a:visual@20", "a:l@20"));
+    EXPECT_THAT(source.warnings(), IsEmpty());
+  }
+  table_ = {};
+  options.odometry_label = "visul";
+  RawlogSource source({}, {options}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("a:l@20"));
+  EXPECT_THAT(source.warnings(), Contains(HasSubstr("'visul' of odometry_label; there are "
+                                                    "'wheels', 'visual'")));
+}
+
+TEST_F(RawlogSourceTest, LidarLabelsChoose) {
+  const auto path = write("a.rawlog", {wheels(1, "o"), cloud(2, "top"), cloud(3, "rear")});
+  auto options = robot("a", path);
+  options.lidar_labels = {"top", "front"};
+  RawlogSource source({}, {options}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("a:o@10", "a:top@20"));
+  EXPECT_THAT(source.warnings(),
+              ElementsAre(HasSubstr("'front' of lidar_labels; there are 'top', 'rear'")));
+}
+
+TEST_F(RawlogSourceTest, OdometryFileReplacesTheRecordedOne) {
+  const auto path = write("a.rawlog", {wheels(1, "o"), cloud(2, "l"), wheels(3, "o")});
+  writeFile(folder_ + "/a.tum", "0.5 1 0 0 0 0 0 1\n2 4 5 6 0 0 0 1\n");
+  auto options = robot("a", path);
+  options.odometry_file = folder_ + "/a.tum";
+  RawlogSource source({}, {options}, table_);
+  const auto first = source.next();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(odometryFromObservation(*first->observation)->odom_T_base.translation().x(), 1);
+  EXPECT_THAT(drain(source), ElementsAre("a:odometry_file@20", "a:l@20"));
+  EXPECT_THAT(source.warnings(), IsEmpty());
+}
+
+TEST_F(RawlogSourceTest, SaysWhatIsMissing) {
+  const auto a = write("a.rawlog", {wheels(1, "o")});
+  const auto b = write("b.rawlog", {cloud(1, "l")});
+  RawlogSource source({a, b}, {}, table_);
+  drain(source);
+  EXPECT_THAT(source.warnings(), ElementsAre("robot 'a': no lidar scan", "robot 'b': no odometry"));
+}
+
+TEST_F(RawlogSourceTest, TellsOfDamage) {
+  const std::string path = folder_ + "/a.rawlog";
+  writeFile(path, bytesOf(*wheels(1, "o")) + foreignObject("vendor::CThing", "abc") +
+                      bytesOf(*cloud(2, "l")) + bytesOf(*cloud(3, "l")).substr(0, 500));
+  RawlogSource source({path}, {}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("a:o@10", "a:l@20"));
+  EXPECT_THAT(source.warnings(), Contains(HasSubstr("unknown class vendor::CThing")));
+  EXPECT_THAT(source.warnings(), Contains(HasSubstr("cut off")));
+  EXPECT_TRUE(source.recordings().at(0).file.truncated);
+}
+
+TEST_F(RawlogSourceTest, LoadsExternalCloudsFromEachRawlogsFolder) {
+  using Format = mrpt::obs::CObservationPointCloud::ExternalStorageFormat;
+  std::vector<std::string> paths;
+  for (const std::string name : {"one", "two"}) {
+    const std::string images = folder_ + "/" + name + "_Images";
+    std::filesystem::create_directories(images);
+    auto o = cloud(1, "lidar");
+    auto gone = cloud(2, "lidar");
+    // Same name in both: the folder decides.
+    writeFile(images + "/scan.txt", name == "one" ? "1 0 0\n2 0 0\n" : "7 0 0\n");
+    o->setAsExternalStorage("scan.txt", Format::PlainTextFile);
+    gone->setAsExternalStorage("gone.txt", Format::PlainTextFile);
+    paths.push_back(write(name + ".rawlog", {o, gone}));
+  }
+  RawlogSource source(paths, {}, table_);
+  const auto one = source.next(), two = source.next();
+  ASSERT_TRUE(one && two);
+  EXPECT_FALSE(source.next());
+  EXPECT_EQ(scanFromObservation(*one->observation, "lidar", {})->size(), 2u);
+  const auto scan = scanFromObservation(*two->observation, "lidar", {});
+  ASSERT_EQ(scan->size(), 1u);
+  EXPECT_EQ(scan->points[0].x(), 7);
+  EXPECT_THAT(source.warnings(), Contains(HasSubstr("data file is missing")));
+}
+
+}  // namespace
+}  // namespace lamp

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "lamp/loop_candidates/CandidateGenerator.h"
+
+namespace lamp {
+
+/** What both radius generators share: the key nodes nearest to the current one, within a radius
+ * that the derived class gives. Robots whose poses cannot be compared (PoseGraph::shareFrame) are
+ * left out. */
+class RadiusGenerator : public CandidateGenerator {
+  DEFINE_VIRTUAL_MRPT_OBJECT(RadiusGenerator)
+
+ public:
+  std::vector<LoopClosureCandidate> propose(const PoseGraph& graph,
+                                            KeyframeId current) const override;
+
+ protected:
+  struct Limits {
+    int min_index_gap = 10;
+    int max_per_robot = 3;
+  };
+  virtual Limits limits() const = 0;
+  /** Search radius between two key nodes of one robot, metres. */
+  virtual double radiusWithin(uint32_t current_index, uint32_t candidate_index) const = 0;
+  /** Search radius from the current key node to those of other robots, metres. */
+  virtual double radiusBetween(uint32_t current_index) const = 0;
+};
+
+struct FixedRadiusOptions {
+  double radius_m = 10.0;
+  double between_robots_radius_m = 20.0;
+  int min_index_gap = 10;
+  int max_per_robot = 3;
+
+  void visit(OptionVisitor& v);
+};
+
+/** LAMP 1.0: one radius for all. */
+class FixedRadius : public RadiusGenerator {
+  DEFINE_MRPT_OBJECT(FixedRadius, lamp)
+
+ public:
+  FixedRadiusOptions options;
+  void visit(OptionVisitor& v) override { options.visit(v); }
+
+ protected:
+  Limits limits() const override { return {options.min_index_gap, options.max_per_robot}; }
+  double radiusWithin(uint32_t, uint32_t) const override { return options.radius_m; }
+  double radiusBetween(uint32_t) const override { return options.between_robots_radius_m; }
+};
+
+struct AdaptiveRadiusOptions {
+  double alpha_m = 0.2;
+  double min_radius_m = 3.0;
+  double max_radius_m = 30.0;
+  double between_robots_min_radius_m = 5.0;
+  double between_robots_max_radius_m = 80.0;
+  int min_index_gap = 10;
+  int max_per_robot = 3;
+
+  void visit(OptionVisitor& v);
+};
+
+/** LAMP 2.0 (paper II-C): the radius grows with the way travelled, as the drift does. Within a
+ * robot `d_max = α |n_curr - n_cand|`, between robots `d_max = α n_curr`, each within limits. */
+class AdaptiveRadius : public RadiusGenerator {
+  DEFINE_MRPT_OBJECT(AdaptiveRadius, lamp)
+
+ public:
+  AdaptiveRadiusOptions options;
+  void visit(OptionVisitor& v) override { options.visit(v); }
+
+ protected:
+  Limits limits() const override { return {options.min_index_gap, options.max_per_robot}; }
+  double radiusWithin(uint32_t current_index, uint32_t candidate_index) const override;
+  double radiusBetween(uint32_t current_index) const override;
+};
+
+}  // namespace lamp

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lamp/maps/CloudOptions.h"
+#include "lamp/maps/MapExporter.h"
+
+namespace lamp {
+
+/** `<stem>.ply`: all keyed scans at the optimised poses as one binary little-endian cloud. World
+ * frame, metres; `red green blue` is the robot's colour; `intensity` is there if any scan has it
+ * and is NaN for the points of scans that have none. */
+class Ply : public MapExporter {
+  DEFINE_MRPT_OBJECT(Ply, lamp)
+
+ public:
+  Ply() = default;
+  explicit Ply(const CloudOptions& options) : options_(options) {}
+
+  void visit(OptionVisitor& options) override { options_.visit(options); }
+  std::vector<std::string> exportMap(const ComponentMap& map, const std::string& stem) override;
+
+ private:
+  CloudOptions options_;
+};
+
+}  // namespace lamp

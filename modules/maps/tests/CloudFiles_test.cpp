@@ -1,0 +1,192 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pcl/conversions.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+
+#include "TestMaps.h"
+#include "lamp/maps/Pcd.h"
+#include "lamp/maps/Ply.h"
+
+namespace lamp {
+namespace {
+
+using testing::HasSubstr;
+
+struct ReadPoint {
+  float x, y, z, intensity;
+  int r, g, b;
+};
+
+float floatField(const pcl::PCLPointCloud2& cloud, size_t point, const std::string& name) {
+  for (const auto& field : cloud.fields)
+    if (field.name == name) {
+      float value;
+      std::memcpy(&value, &cloud.data[point * cloud.point_step + field.offset], sizeof(value));
+      return value;
+    }
+  return -1;
+}
+
+/** Reads with PCL's own readers. */
+std::vector<ReadPoint> read(const std::string& path) {
+  pcl::PCLPointCloud2 cloud;
+  const bool is_ply = path.substr(path.size() - 4) == ".ply";
+  const int status =
+      is_ply ? pcl::PLYReader().read(path, cloud) : pcl::PCDReader().read(path, cloud);
+  EXPECT_EQ(status, 0) << path;
+  std::vector<ReadPoint> points;
+  for (size_t i = 0; i < cloud.width * cloud.height; ++i) {
+    const float packed = floatField(cloud, i, "rgb");
+    uint32_t rgb;
+    std::memcpy(&rgb, &packed, sizeof(rgb));
+    points.push_back({floatField(cloud, i, "x"), floatField(cloud, i, "y"),
+                      floatField(cloud, i, "z"), floatField(cloud, i, "intensity"),
+                      static_cast<int>(rgb >> 16 & 255), static_cast<int>(rgb >> 8 & 255),
+                      static_cast<int>(rgb & 255)});
+  }
+  return points;
+}
+
+/** The same tests for both formats. */
+class CloudFiles : public testing::TestWithParam<const char*> {
+ protected:
+  std::vector<std::string> exportMap(const ComponentMap& map, double voxel_m,
+                                     const std::string& stem) {
+    CloudOptions options;
+    options.voxel_m = voxel_m;
+    if (std::string(GetParam()) == "ply") return Ply(options).exportMap(map, stem);
+    return Pcd(options).exportMap(map, stem);
+  }
+  std::string write(const ComponentMap& map, double voxel_m = 0) {
+    const std::string stem = freshFolder() + "/map";
+    const auto paths = exportMap(map, voxel_m, stem);
+    EXPECT_EQ(paths, std::vector<std::string>{stem + "." + GetParam()});
+    return paths.at(0);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Formats, CloudFiles, testing::Values("ply", "pcd"),
+                         [](const auto& format) { return std::string(format.param); });
+
+TEST_P(CloudFiles, MovesPointsByThePoseAndColoursThemByRobot) {
+  TestMap test;
+  test.add(0, planarPose(10, 20, M_PI / 2), makeScan({{1, 0, 0.5f}, {0, 2, -1}}));
+  test.add(1, Pose3(Eigen::Translation3d(-3, 0, 1)), makeScan({{0.25f, 0, 0}}));
+  const auto points = read(write(test.map));
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_NEAR(points[0].x, 10, 1e-5);
+  EXPECT_NEAR(points[0].y, 21, 1e-5);
+  EXPECT_NEAR(points[0].z, 0.5, 1e-6);
+  EXPECT_NEAR(points[1].x, 8, 1e-5);
+  EXPECT_NEAR(points[1].y, 20, 1e-5);
+  EXPECT_NEAR(points[2].x, -2.75, 1e-6);
+  EXPECT_NEAR(points[2].z, 1, 1e-6);
+  for (size_t i = 0; i < 3; ++i) {
+    const Color expected = robotColor(RobotId{static_cast<uint16_t>(i < 2 ? 0 : 1)});
+    EXPECT_EQ(points[i].r, expected.r);
+    EXPECT_EQ(points[i].g, expected.g);
+    EXPECT_EQ(points[i].b, expected.b);
+  }
+}
+
+TEST_P(CloudFiles, KeepsIntensityAndMarksWhereThereIsNone) {
+  TestMap test;
+  const auto bright = makeScan({{1, 0, 0}, {2, 0, 0}});
+  bright->intensity = {7.5f, 0.25f};
+  test.add(0, Pose3::Identity(), bright);
+  test.add(1, Pose3::Identity(), makeScan({{3, 0, 0}}));
+  const auto points = read(write(test.map));
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points[0].intensity, 7.5f);
+  EXPECT_EQ(points[1].intensity, 0.25f);
+  EXPECT_TRUE(std::isnan(points[2].intensity));
+}
+
+TEST_P(CloudFiles, HasNoIntensityFieldWhereNoScanHasOne) {
+  TestMap test;
+  test.add(0, Pose3::Identity(), makeScan({{1, 0, 0}}));
+  const std::string path = write(test.map);
+  EXPECT_EQ(bytesOf(path).find("intensity"), std::string::npos);
+  EXPECT_EQ(read(path).size(), 1u);
+}
+
+TEST_P(CloudFiles, ThinsWithOneGridOverAllScans) {
+  TestMap test;
+  std::vector<Eigen::Vector3f> row;
+  for (int i = 0; i < 1000; ++i) row.push_back({0.01f * i + 0.005f, 0, 0});
+  test.add(0, Pose3::Identity(), makeScan(row));
+  test.add(1, Pose3::Identity(), makeScan(row));
+  EXPECT_EQ(read(write(test.map, 0)).size(), 2000u);
+  const auto thinned = read(write(test.map, 0.5));
+  ASSERT_EQ(thinned.size(), 20u);
+  for (const ReadPoint& point : thinned) EXPECT_EQ(point.r, robotColor(RobotId{0}).r);
+}
+
+TEST_P(CloudFiles, StreamsMoreThanOneBuffer) {
+  TestMap test;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 100000; ++i) points.push_back({0.1f * (i % 1000), 0.1f * (i / 1000), 0});
+  test.add(0, Pose3::Identity(), makeScan(points));
+  const auto back = read(write(test.map));
+  ASSERT_EQ(back.size(), points.size());
+  for (size_t i = 0; i < points.size(); i += 997) {
+    EXPECT_EQ(back[i].x, points[i].x());
+    EXPECT_EQ(back[i].y, points[i].y());
+  }
+}
+
+TEST_P(CloudFiles, WritesTheSameBytesTwice) {
+  TestMap test;
+  test.add(0, planarPose(1, 2, 3), makeScan({{1, 0, 0.5f}, {0, 2, -1}}));
+  const std::string first = bytesOf(write(test.map, 0.05));
+  EXPECT_EQ(first, bytesOf(write(test.map, 0.05)));
+}
+
+TEST_P(CloudFiles, EmptyMapsGiveValidFilesOfNoPoints) {
+  TestMap test;
+  const auto header_says = [&](const std::string& path) {
+    EXPECT_THAT(bytesOf(path),
+                HasSubstr(std::string(GetParam()) == "ply" ? "element vertex 0\n" : "POINTS 0\n"));
+  };
+  header_says(write(test.map));
+  test.add(0, Pose3::Identity(), makeScan({}));
+  test.add(0, Pose3::Identity(), nullptr);
+  header_says(write(test.map, 0.05));
+}
+
+TEST_P(CloudFiles, PassesOverPointsThatAreNotFinite) {
+  TestMap test;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  test.add(0, Pose3::Identity(), makeScan({{nan, 0, 0}, {1, 1, 1}}));
+  EXPECT_EQ(read(write(test.map)).size(), 1u);
+}
+
+TEST_P(CloudFiles, RefusesInvalidMapsAndNamesTheKeyNode) {
+  TestMap test;
+  Pose3 broken = Pose3::Identity();
+  broken.translation().x() = std::nan("");
+  test.add(1, broken, makeScan({{1, 0, 0}}));
+  const std::string folder = freshFolder();
+  EXPECT_THAT(errorOf([&] { exportMap(test.map, 0, folder + "/map"); }), HasSubstr("spot2:0"));
+
+  test.map.keyframes.clear();
+  const auto scan = makeScan({{1, 0, 0}});
+  scan->sensor.clear();
+  test.add(0, Pose3::Identity(), scan);
+  EXPECT_THAT(errorOf([&] { exportMap(test.map, 0, folder + "/map"); }), HasSubstr("husky1:0"));
+  EXPECT_EQ(fileCount(folder), 0u);
+}
+
+TEST_P(CloudFiles, FailuresNameThePathAndLeaveNoFile) {
+  TestMap test;
+  const std::string folder = freshFolder();
+  EXPECT_THAT(errorOf([&] { exportMap(test.map, 0, folder + "/missing/map"); }),
+              HasSubstr(folder + "/missing/map." + GetParam()));
+
+  test.add(0, Pose3::Identity(), makeScan({{1e9f, 0, 0}}));
+  EXPECT_THAT(errorOf([&] { exportMap(test.map, 0.05, folder + "/map"); }), HasSubstr("voxel_m"));
+  EXPECT_EQ(fileCount(folder), 0u);
+}
+
+}  // namespace
+}  // namespace lamp

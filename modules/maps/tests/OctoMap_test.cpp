@@ -1,0 +1,178 @@
+#include "lamp/maps/OctoMap.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <octomap/OcTree.h>
+
+#include "TestMaps.h"
+
+namespace lamp {
+namespace {
+
+using testing::HasSubstr;
+
+enum class Cell { kUnknown, kFree, kOccupied };
+
+Cell cellAt(const octomap::OcTree& tree, double x, double y, double z) {
+  const octomap::OcTreeNode* node = tree.search(x, y, z);
+  if (!node) return Cell::kUnknown;
+  return tree.isNodeOccupied(node) ? Cell::kOccupied : Cell::kFree;
+}
+
+/** A wall across x, one metre high and four wide, as points 5 cm apart. */
+std::vector<Eigen::Vector3f> wall(float x) {
+  std::vector<Eigen::Vector3f> points;
+  for (float y = -2; y <= 2; y += 0.05f)
+    for (float z = -0.5f; z <= 0.5f; z += 0.05f) points.push_back({x, y, z});
+  return points;
+}
+
+std::unique_ptr<octomap::OcTree> readLogOdds(const std::string& path) {
+  std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(path));
+  auto* occupancy = dynamic_cast<octomap::OcTree*>(tree.get());
+  if (occupancy) tree.release();
+  return std::unique_ptr<octomap::OcTree>(occupancy);
+}
+
+std::vector<std::string> write(const ComponentMap& map, const OctoMapOptions& options = {}) {
+  return OctoMap(options).exportMap(map, freshFolder() + "/map");
+}
+
+TEST(OctoMap, IsFreeBeforeOccupiedAtAndUnknownBehindTheWall) {
+  TestMap test;
+  test.add(0, Pose3(Eigen::Translation3d(0.01, 0.01, 0.01)), makeScan(wall(5.1f)));
+  const auto paths = write(test.map);
+  ASSERT_EQ(paths.size(), 2u);
+  const auto log_odds = readLogOdds(paths[0]);
+  ASSERT_TRUE(log_odds);
+  octomap::OcTree binary(0.05);
+  ASSERT_TRUE(binary.readBinary(paths[1]));
+  EXPECT_NEAR(binary.getResolution(), 0.2, 1e-12);
+
+  for (const octomap::OcTree* tree : {log_odds.get(), &binary}) {
+    for (double x = 0.1; x < 4.9; x += 0.2) EXPECT_EQ(cellAt(*tree, x, 0, 0), Cell::kFree) << x;
+    for (double y = -1.9; y < 2; y += 0.2) EXPECT_EQ(cellAt(*tree, 5.11, y, 0), Cell::kOccupied);
+    EXPECT_EQ(cellAt(*tree, 5.5, 0, 0), Cell::kUnknown);
+    EXPECT_EQ(cellAt(*tree, -0.5, 0, 0), Cell::kUnknown);
+    double low, high, other;
+    tree->getMetricMin(low, other, other);
+    tree->getMetricMax(high, other, other);
+    EXPECT_NEAR(low, 0.0, 0.2);
+    EXPECT_NEAR(high, 5.2, 0.2);
+  }
+  EXPECT_NEAR(log_odds->search(5.11, 0.05, 0.05)->getOccupancy(), 0.7, 1e-6);
+  EXPECT_NEAR(log_odds->search(2.0, 0.05, 0.05)->getOccupancy(), 0.4, 1e-6);
+}
+
+TEST(OctoMap, CarvesFromTheOriginOfTheSensorThatSawThePoint) {
+  TestMap test;
+  const auto scan = makeScan({{5.1f, 3.1f, 0.1f}, {5.1f, -3.1f, 0.1f}});
+  scan->sensors = {{"left", {0.1, 3.1, 0.1}}, {"right", {0.1, -3.1, 0.1}}};
+  scan->sensor = {0, 1};
+  test.add(0, planarPose(0, 0, M_PI / 2), scan);
+  const auto tree = readLogOdds(write(test.map)[0]);
+  ASSERT_TRUE(tree);
+  // Turned by 90 degrees: the rays run along y at x = -3.1 and x = 3.1.
+  for (const double x : {-3.1, 3.1}) EXPECT_EQ(cellAt(*tree, x, 2.5, 0.1), Cell::kFree) << x;
+  for (const double x : {-3.1, 3.1}) EXPECT_EQ(cellAt(*tree, x, 5.1, 0.1), Cell::kOccupied) << x;
+  EXPECT_EQ(cellAt(*tree, 0.1, 0.1, 0.1), Cell::kUnknown);
+  EXPECT_EQ(cellAt(*tree, 1.5, 2.5, 0.1), Cell::kUnknown);
+}
+
+TEST(OctoMap, CutsLongRaysWithoutAnOccupiedEnd) {
+  TestMap test;
+  OctoMapOptions options;
+  options.max_range_m = 3;
+  test.add(0, Pose3(Eigen::Translation3d(0.1, 0.1, 0.1)), makeScan({{8, 0, 0}, {0, 2, 0}}));
+  const auto tree = readLogOdds(write(test.map, options)[0]);
+  ASSERT_TRUE(tree);
+  EXPECT_EQ(cellAt(*tree, 2.7, 0.1, 0.1), Cell::kFree);
+  EXPECT_EQ(cellAt(*tree, 3.5, 0.1, 0.1), Cell::kUnknown);
+  EXPECT_EQ(cellAt(*tree, 8.1, 0.1, 0.1), Cell::kUnknown);
+  EXPECT_EQ(cellAt(*tree, 0.1, 2.1, 0.1), Cell::kOccupied);
+}
+
+TEST(OctoMap, WithinOneScanAnEndWinsOverRaysThatPassEvenOfAnotherSensor) {
+  TestMap test;
+  const auto scan = makeScan({{2, 0, 0}, {4, 0, 0}, {4, 0.01f, 0}, {4, 0, 0.01f}});
+  scan->sensors = {{"front", {0, 0, 0}}, {"rear", {-1, 0, 0}}};
+  scan->sensor = {0, 1, 1, 1};
+  test.add(0, Pose3(Eigen::Translation3d(0.1, 0.1, 0.1)), scan);
+  const auto tree = readLogOdds(write(test.map)[0]);
+  ASSERT_TRUE(tree);
+  EXPECT_NEAR(tree->search(2.1, 0.1, 0.1)->getOccupancy(), 0.7, 1e-6);
+}
+
+TEST(OctoMap, ScansAddUpAndStopAtTheClamps) {
+  TestMap test;
+  for (int i = 0; i < 20; ++i)
+    test.add(0, Pose3(Eigen::Translation3d(0.1, 0.1, 0.1)), makeScan({{2, 0, 0}}));
+  const auto tree = readLogOdds(write(test.map)[0]);
+  ASSERT_TRUE(tree);
+  EXPECT_NEAR(tree->search(2.1, 0.1, 0.1)->getOccupancy(), 0.97, 1e-4);
+  EXPECT_NEAR(tree->search(1.1, 0.1, 0.1)->getOccupancy(), 0.12, 1e-4);
+}
+
+TEST(OctoMap, EmptyMapsGiveFilesThatOpen) {
+  TestMap test;
+  test.add(0, Pose3::Identity(), makeScan({}));
+  test.add(0, Pose3::Identity(), nullptr);
+  const auto paths = write(test.map);
+  const auto tree = readLogOdds(paths[0]);
+  ASSERT_TRUE(tree);
+  EXPECT_EQ(tree->size(), 0u);
+  octomap::OcTree binary(0.05);
+  EXPECT_TRUE(binary.readBinary(paths[1]));
+}
+
+TEST(OctoMap, LeavesOutPointsThatAreNotFiniteOrOutOfBounds) {
+  TestMap test;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  OctoMapOptions options;
+  options.max_range_m = 1e6;
+  test.add(0, Pose3::Identity(), makeScan({{nan, 0, 0}, {9e4f, 0, 0}, {2.1f, 0.1f, 0.1f}}));
+  const auto tree = readLogOdds(write(test.map, options)[0]);
+  ASSERT_TRUE(tree);
+  size_t occupied = 0;
+  for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf)
+    if (tree->isNodeOccupied(*leaf)) ++occupied;
+  EXPECT_EQ(occupied, 1u);
+}
+
+TEST(OctoMap, WritesTheSameBytesTwice) {
+  TestMap test;
+  test.add(0, planarPose(1, 2, 3), makeScan(wall(4)));
+  const auto bytes = [&] {
+    const auto paths = write(test.map);
+    return bytesOf(paths[0]) + bytesOf(paths[1]);
+  };
+  EXPECT_EQ(bytes(), bytes());
+}
+
+TEST(OctoMap, TheBinaryFileHoldsWhatOctomapItselfWouldWrite) {
+  TestMap test;
+  test.add(0, planarPose(1, 2, 3), makeScan(wall(4)));
+  const auto paths = write(test.map);
+  const auto tree = readLogOdds(paths[0]);
+  ASSERT_TRUE(tree);
+  std::ostringstream expected;
+  ASSERT_TRUE(tree->writeBinary(expected));
+  const auto data = [](const std::string& file) { return file.substr(file.find("\nid OcTree\n")); };
+  EXPECT_EQ(data(bytesOf(paths[1])), data(expected.str()));
+}
+
+TEST(OctoMap, RefusesInvalidMapsAndMissingFolders) {
+  TestMap test;
+  const std::string folder = freshFolder();
+  EXPECT_THAT(errorOf([&] { OctoMap().exportMap(test.map, folder + "/missing/map"); }),
+              HasSubstr(folder + "/missing/map.ot"));
+  Pose3 broken = Pose3::Identity();
+  broken.linear()(0, 0) = std::nan("");
+  test.add(0, broken, makeScan({{1, 0, 0}}));
+  EXPECT_THAT(errorOf([&] { OctoMap().exportMap(test.map, folder + "/map"); }),
+              HasSubstr("husky1:0"));
+  EXPECT_EQ(fileCount(folder), 0u);
+}
+
+}  // namespace
+}  // namespace lamp

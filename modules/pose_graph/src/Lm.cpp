@@ -1,0 +1,40 @@
+#include "lamp/pose_graph/Lm.h"
+
+#include "PoseProblem.h"
+
+IMPLEMENTS_MRPT_OBJECT(Lm, Optimizer, lamp)
+
+namespace lamp {
+
+void LmOptions::visit(OptionVisitor& v) {
+  v("max_iterations", max_iterations, "", "Most Levenberg-Marquardt iterations of a solve.",
+    kPositive);
+  v("function_tolerance", function_tolerance, "",
+    "A solve stops when an iteration lowers the cost by less than this share.", kNotNegative);
+  v("initial_trust_region_radius", initial_trust_region_radius, "",
+    "First radius of the trust region; large values make the first steps Gauss-Newton steps.",
+    kPositive);
+}
+
+OptimizationResult Lm::optimize(const PoseGraph& graph) {
+  std::vector<Pose3> current;
+  for (const Node& node : graph.nodes()) current.push_back(node.world_T_base);
+  const std::unique_ptr<PoseProblem> problem = makePoseProblem(graph, current);
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
+    if (!graph.edges()[e].active()) problem->setWeight(e, 0.0);
+  const SolveSummary summary = problem->solve(options_);
+
+  OptimizationResult result;
+  result.world_T_base = problem->poses();
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
+    const Edge& edge = graph.edges()[e];
+    if (!edge.mayBeRejected()) continue;
+    result.loops.push_back({e, edge.active() ? Verdict::kInlier : Verdict::kOutlier,
+                            edge.active() ? 1.0 : 0.0, problem->chi2(e)});
+  }
+  result.report = {summary.usable,       summary.termination, summary.iterations, 1,
+                   summary.initial_cost, summary.final_cost};
+  return result;
+}
+
+}  // namespace lamp

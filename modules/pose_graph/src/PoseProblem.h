@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lamp/core/PoseGraph.h"
+#include "lamp/pose_graph/Lm.h"
+
+namespace lamp {
+
+/** How one solve went. Costs are half the weighted sums of squared residuals. */
+struct SolveSummary {
+  bool usable = true;
+  std::string termination;
+  int iterations = 0;
+  double initial_cost = 0;
+  double final_cost = 0;
+};
+
+/** The least-squares problem of a pose graph, with a weight for each edge. Solved again and again
+ * with other weights and starts; edges of weight zero are no part of it then. */
+class PoseProblem {
+ public:
+  virtual ~PoseProblem() = default;
+
+  /** Degrees of freedom of an edge's residual: 6, or 3 for a planar graph. */
+  virtual int degreesOfFreedom() const = 0;
+  /** Where the next solve starts. \param world_T_base in the order of PoseGraph::nodes().
+   * \throws std::runtime_error naming a node whose pose is not finite. */
+  virtual void setPoses(const std::vector<Pose3>& world_T_base) = 0;
+  virtual std::vector<Pose3> poses() const = 0;
+  /** \param weight factor of the edge's squared residual, at least 0. */
+  virtual void setWeight(EdgeIndex edge, double weight) = 0;
+  /** Squared Mahalanobis residual at poses(), without the weight. */
+  virtual double chi2(EdgeIndex edge) const = 0;
+  /** Moves poses() to a minimum; leaves them alone if the summary is not usable. */
+  virtual SolveSummary solve(const LmOptions& options) = 0;
+};
+
+/** The problem of a graph that outlives it unchanged. All edges have weight 1 at first.
+ * \throws std::runtime_error as setPoses(). */
+std::unique_ptr<PoseProblem> makePoseProblem(const PoseGraph& graph,
+                                             const std::vector<Pose3>& world_T_base);
+
+}  // namespace lamp

@@ -1,0 +1,12 @@
+#include "lamp/pose_graph/Gnc.h"
+#include "lamp/pose_graph/Lm.h"
+
+namespace lamp {
+
+void registerAllClasses_lamp_pose_graph() {
+  mrpt::rtti::registerClass(CLASS_ID(Optimizer));
+  mrpt::rtti::registerClass(CLASS_ID(Lm));
+  mrpt::rtti::registerClass(CLASS_ID(Gnc));
+}
+
+}  // namespace lamp

@@ -1,0 +1,64 @@
+#include "GaugeAnchors.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "TestGraphs.h"
+
+namespace lamp {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const Matrix6d kInformation = informationOf(0.1, 0.01);
+
+/** Two robots of two key nodes, added last first, and a loop (edge 2) between them. */
+PoseGraph twoRobots() {
+  PoseGraph graph;
+  for (const KeyframeId id : {keyframe(1, 1), keyframe(1, 0), keyframe(0, 1), keyframe(0, 0)}) {
+    Node node;
+    node.id = id;
+    graph.addNode(node);
+  }
+  for (int robot : {0, 1})
+    graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(robot, 0), keyframe(robot, 1),
+                           Pose3::Identity(), kInformation));
+  graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, 1), keyframe(1, 1), Pose3::Identity(),
+                         kInformation));
+  return graph;
+}
+
+void addPrior(PoseGraph& graph, KeyframeId id) {
+  graph.addEdge(makeEdge(EdgeType::kPrior, id, id, Pose3::Identity(), kInformation));
+}
+
+TEST(GaugeAnchors, FirstKeyNodeOfAJoinedTeam) {
+  EXPECT_THAT(gaugeAnchors(twoRobots(), {1, 1, 1}), ElementsAre(3));
+}
+
+TEST(GaugeAnchors, DroppedLoopLeavesTwoComponents) {
+  EXPECT_THAT(gaugeAnchors(twoRobots(), {1, 1, 0}), ElementsAre(1, 3));
+}
+
+TEST(GaugeAnchors, PriorHoldsItsComponentOnly) {
+  PoseGraph graph = twoRobots();
+  addPrior(graph, keyframe(1, 1));
+  EXPECT_THAT(gaugeAnchors(graph, {1, 1, 1, 1}), IsEmpty());
+  EXPECT_THAT(gaugeAnchors(graph, {1, 1, 0, 1}), ElementsAre(3));
+}
+
+TEST(GaugeAnchors, PriorsDoNotJoin) {
+  PoseGraph graph = twoRobots();
+  addPrior(graph, keyframe(0, 0));
+  addPrior(graph, keyframe(1, 0));
+  EXPECT_THAT(gaugeAnchors(graph, {1, 1, 0, 1, 1}), IsEmpty());
+}
+
+TEST(GaugeAnchors, LoneNodesAndNone) {
+  EXPECT_THAT(gaugeAnchors(PoseGraph(), {}), IsEmpty());
+  EXPECT_THAT(gaugeAnchors(twoRobots(), {0, 0, 0}), ElementsAre(0, 1, 2, 3));
+}
+
+}  // namespace
+}  // namespace lamp

@@ -1,0 +1,201 @@
+#include "lamp/pose_graph/ShortestPathUncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <stdexcept>
+
+#include "TestGraphs.h"
+
+namespace lamp {
+namespace {
+
+Matrix6d randomCovariance(Random& random) {
+  Matrix6d m;
+  for (int i = 0; i < 36; ++i) m(i) = random.normal(0.02);
+  return m * m.transpose() + 1e-4 * Matrix6d::Identity();
+}
+
+/** A chain with exact measurements and full covariances. */
+PoseGraph randomChain(int size, unsigned seed) {
+  Random random(seed);
+  PoseGraph graph;
+  for (int i = 0; i < size; ++i) {
+    Node node;
+    node.id = keyframe(0, i);
+    const Pose3 step = random.pose(2.0, 0.8);
+    if (i > 0) node.world_T_base = graph.node(keyframe(0, i - 1)).world_T_base * step;
+    graph.addNode(node);
+    if (i > 0)
+      graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(0, i - 1), node.id, step,
+                             randomCovariance(random).inverse()));
+  }
+  return graph;
+}
+
+/** Information of all nodes' right perturbations with one node held, by finite differences of the
+ * edges' residuals: the true relative covariance to first order. */
+Matrix6d denseCovariance(const PoseGraph& graph, KeyframeId from, KeyframeId to) {
+  const size_t n = graph.nodes().size();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6 * n, 6 * n);
+  constexpr double kStep = 1e-6;
+  for (const Edge& edge : graph.edges()) {
+    const size_t places[2] = {graph.place(edge.from), graph.place(edge.to)};
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(6, 6 * n);
+    for (int end = 0; end < 2; ++end)
+      for (int i = 0; i < 6; ++i) {
+        const auto error = [&](double step) {
+          Pose3 ends[2] = {graph.nodes()[places[0]].world_T_base,
+                           graph.nodes()[places[1]].world_T_base};
+          ends[end] = ends[end] * expSE3(step * Vector6d::Unit(i));
+          return logSE3(edge.from_T_to.inverse() * ends[0].inverse() * ends[1]);
+        };
+        J.col(6 * places[end] + i) = (error(kStep) - error(-kStep)) / (2 * kStep);
+      }
+    H += J.transpose() * edge.information * J;
+  }
+  const size_t held = graph.place(from);
+  H.block(6 * held, 6 * held, 6, 6) += 1e12 * Matrix6d::Identity();
+  return H.inverse().block(6 * graph.place(to), 6 * graph.place(to), 6, 6);
+}
+
+TEST(ShortestPathUncertainty, IsExactOnAChainInBothDirections) {
+  const PoseGraph graph = randomChain(6, 1);
+  const ShortestPathUncertainty uncertainty(graph);
+  for (const auto& [a, b] : {std::make_pair(0, 5), std::make_pair(5, 0), std::make_pair(4, 2)}) {
+    const Matrix6d got = *uncertainty.relativeCovariances(keyframe(0, a), {keyframe(0, b)}).front();
+    const Matrix6d expected = denseCovariance(graph, keyframe(0, a), keyframe(0, b));
+    EXPECT_LT((got - expected).norm(), 1e-4 * expected.norm());
+  }
+}
+
+TEST(ShortestPathUncertainty, IsAnUpperBoundWhereThereAreLoops) {
+  Random random(3);
+  PoseGraph graph = randomChain(8, 2);
+  for (const auto& [a, b] : {std::make_pair(0, 5), std::make_pair(7, 2), std::make_pair(1, 6)}) {
+    const KeyframeId from = keyframe(0, a), to = keyframe(0, b);
+    graph.addEdge(makeEdge(EdgeType::kLoopClosure, from, to,
+                           graph.node(from).world_T_base.inverse() * graph.node(to).world_T_base,
+                           randomCovariance(random).inverse()));
+  }
+  const ShortestPathUncertainty uncertainty(graph);
+  std::vector<KeyframeId> targets;
+  for (int i = 1; i < 8; ++i) targets.push_back(keyframe(0, i));
+  const auto got = uncertainty.relativeCovariances(keyframe(0, 0), targets);
+  for (size_t i = 0; i < targets.size(); ++i) {
+    const Matrix6d excess = *got[i] - denseCovariance(graph, keyframe(0, 0), targets[i]);
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 * (excess + excess.transpose()));
+    EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-7);
+  }
+}
+
+class TwoRobots : public testing::Test {
+ protected:
+  TwoRobots() {
+    for (const int robot : {0, 1})
+      for (const int index : {0, 1}) {
+        Node node;
+        node.id = keyframe(robot, index);
+        node.world_T_base = planarPose(index, 10.0 * robot, 0);
+        graph.addNode(node);
+      }
+    for (const int robot : {0, 1})
+      graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(robot, 0), keyframe(robot, 1),
+                             planarPose(1, 0, 0), informationOf(0.1, 0.01)));
+  }
+  void addPrior(int robot, double sigma_m) {
+    const KeyframeId id = keyframe(robot, 0);
+    graph.addEdge(makeEdge(EdgeType::kPrior, id, id, graph.node(id).world_T_base,
+                           informationOf(sigma_m, 1e-3)));
+  }
+  EdgeIndex addLoop() {
+    return graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, 1), keyframe(1, 1),
+                                  planarPose(0, 10, 0), informationOf(0.05, 0.01)));
+  }
+  std::optional<Matrix6d> between() const {
+    return ShortestPathUncertainty(graph)
+        .relativeCovariances(keyframe(0, 1), {keyframe(1, 1)})
+        .front();
+  }
+  PoseGraph graph;
+};
+
+TEST_F(TwoRobots, WithoutLoopOrPriorsAreUnrelated) {
+  EXPECT_FALSE(between());
+  addPrior(0, 0.5);
+  EXPECT_FALSE(between());
+}
+
+TEST_F(TwoRobots, AreRelatedThroughTheWorld) {
+  addPrior(0, 0.5);
+  addPrior(1, 0.3);
+  const auto covariance = between();
+  ASSERT_TRUE(covariance);
+  // x: both odometry edges, both priors, 10 m of lever arm on three of the yaw errors.
+  EXPECT_NEAR((*covariance)(2, 2), 2 * 0.01 + 0.25 + 0.09 + 1e-6 + (1e-4 + 1e-6) * (100 + 1), 2e-2);
+  EXPECT_NEAR((*covariance)(5, 5), 2e-4 + 2e-6, 1e-12);
+}
+
+TEST_F(TwoRobots, LoopIsTheShorterPathUnlessRejected) {
+  addPrior(0, 0.5);
+  addPrior(1, 0.3);
+  const EdgeIndex loop = addLoop();
+  EXPECT_NEAR((*between())(0, 0), 0.0025, 1e-9);
+  graph.edges()[loop].verdict = Verdict::kOutlier;
+  EXPECT_GT((*between())(0, 0), 0.3);
+  graph.edges()[loop].verdict = Verdict::kPending;
+  graph.edges()[loop].weight = 0.0;
+  EXPECT_GT((*between())(0, 0), 0.3);
+}
+
+TEST_F(TwoRobots, SingularLoopIsNotWalked) {
+  Edge loop = makeEdge(EdgeType::kLoopClosure, keyframe(0, 1), keyframe(1, 1), planarPose(0, 10, 0),
+                       informationOf(0.05, 0.01));
+  loop.information(0, 0) = 0.0;
+  graph.addEdge(loop);
+  EXPECT_FALSE(between());
+}
+
+TEST_F(TwoRobots, ParallelEdgesGiveTheBetterOne) {
+  addLoop();
+  graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(1, 1), keyframe(0, 1),
+                         planarPose(0, -10, 0), informationOf(0.01, 0.0001)));
+  EXPECT_NEAR((*between())(2, 2), 1e-4 + 1e-8 * 100, 1e-9);
+}
+
+TEST_F(TwoRobots, ItselfUnknownAndNone) {
+  const ShortestPathUncertainty uncertainty(graph);
+  EXPECT_TRUE(uncertainty.relativeCovariances(keyframe(0, 0), {keyframe(0, 0)})[0]->isZero());
+  EXPECT_TRUE(uncertainty.relativeCovariances(keyframe(0, 0), {}).empty());
+  EXPECT_THROW(uncertainty.relativeCovariances(keyframe(5, 0), {}), std::out_of_range);
+  const auto twice =
+      uncertainty.relativeCovariances(keyframe(0, 0), {keyframe(0, 1), keyframe(0, 1)});
+  EXPECT_TRUE(twice[0]->isApprox(*twice[1], 0.0));
+}
+
+TEST(ShortestPathUncertaintyPlanar, PlaneIsExactAndTheRestSmall) {
+  PoseGraph graph;
+  for (int i = 0; i < 3; ++i) {
+    Node node;
+    node.id = keyframe(0, i);
+    node.planar = true;
+    node.world_T_base = planarPose(2.0 * i, 0, 0);
+    graph.addNode(node);
+  }
+  Matrix6d information = Matrix6d::Zero();  // says nothing of z, roll, pitch
+  information.diagonal() << 100, 100, 0, 0, 0, 1e4;
+  for (int i : {1, 2})
+    graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(0, i - 1), keyframe(0, i),
+                           planarPose(2, 0, 0), information));
+  const Matrix6d covariance =
+      *ShortestPathUncertainty(graph).relativeCovariances(keyframe(0, 0), {keyframe(0, 2)}).front();
+  EXPECT_NEAR(covariance(0, 0), 0.02, 1e-9);
+  EXPECT_NEAR(covariance(1, 1), 0.02 + 4e-4, 1e-9);
+  EXPECT_NEAR(covariance(5, 5), 2e-4, 1e-12);
+  EXPECT_LT(covariance(2, 2), 1e-4);
+  EXPECT_TRUE(isCovariance(covariance));
+}
+
+}  // namespace
+}  // namespace lamp

@@ -1,0 +1,58 @@
+#include "lamp/registration/Verifier.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "lamp/core/ChiSquare.h"
+
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Verifier, Stage, lamp)
+IMPLEMENTS_MRPT_OBJECT(OverlapResidual, lamp::Verifier, lamp)
+IMPLEMENTS_MRPT_OBJECT(GuessDeviation, lamp::Verifier, lamp)
+
+namespace lamp {
+
+void OverlapResidualOptions::visit(OptionVisitor& v) {
+  v("min_overlap", min_overlap, "", "share of the source's points that need a partner", kShare);
+  v("max_residual_m", max_residual_m, "m", "largest r.m.s. point-to-plane distance", kPositive);
+  v("partner_distance_m", partner_distance_m, "m", "how near a partner must lie", kPositive);
+}
+
+Verification OverlapResidual::verify(const RegistrationResult& result, const PreparedScan& source,
+                                     const PreparedScan& target, const Guess&) const {
+  const Agreement found =
+      agreement(source, target, result.target_T_source, options.partner_distance_m);
+  Verification verification;
+  verification.scores = {{"overlap", found.overlap, options.min_overlap},
+                         {"residual_m", found.residual_m, options.max_residual_m}};
+  if (found.overlap < options.min_overlap)
+    verification.refusal = "low overlap";
+  else if (found.residual_m > options.max_residual_m)
+    verification.refusal = "high residual";
+  return verification;
+}
+
+void GuessDeviationOptions::visit(OptionVisitor& v) {
+  v("probability", probability, "", "share of right registrations that pass", {0.5, 1.0 - 1e-12});
+  v("slack_m", slack_m, "m", "standard deviation added to the guess's position", kPositive);
+  v("slack_deg", slack_deg, "deg", "standard deviation added to the guess's rotation", kPositive);
+}
+
+Verification GuessDeviation::verify(const RegistrationResult& result, const PreparedScan& source,
+                                    const PreparedScan& target, const Guess& guess) const {
+  if (!guess.covariance) return {};
+  const double slack_rad = options.slack_deg * M_PI / 180.0;
+  Matrix6d covariance = *guess.covariance + result.covariance;
+  covariance.diagonal().head<3>().array() += options.slack_m * options.slack_m;
+  covariance.diagonal().tail<3>().array() += slack_rad * slack_rad;
+  const Vector6d deviation = logSE3(guess.target_T_source.inverse() * result.target_T_source);
+
+  const bool planar = source.planar && target.planar;
+  const double d2 = deviation.dot(covariance.ldlt().solve(deviation));
+  const double limit = chiSquareQuantile(options.probability, planar ? 3 : 6);
+  Verification verification;
+  verification.scores = {{"guess_chi2", d2, limit}};
+  if (!(d2 <= limit)) verification.refusal = "far from the guess";
+  return verification;
+}
+
+}  // namespace lamp

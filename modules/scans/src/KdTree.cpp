@@ -1,0 +1,63 @@
+#include "lamp/scans/KdTree.h"
+
+#include <nanoflann.hpp>
+
+namespace lamp {
+
+namespace {
+
+struct Adaptor {
+  const std::vector<Eigen::Vector3f>& points;
+  size_t kdtree_get_point_count() const { return points.size(); }
+  float kdtree_get_pt(size_t i, size_t axis) const {
+    return points[i][static_cast<Eigen::Index>(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Adaptor>,
+                                                 Adaptor, 3, uint32_t>;
+constexpr size_t kLeafSize = 10;
+
+}  // namespace
+
+struct KdTree::Index {
+  explicit Index(const std::vector<Eigen::Vector3f>& points)
+      : adaptor{points}, tree(3, adaptor, {kLeafSize}) {}
+  Adaptor adaptor;
+  Tree tree;
+};
+
+KdTree::KdTree(const std::vector<Eigen::Vector3f>& points)
+    : index_(points.empty() ? nullptr : std::make_unique<Index>(points)) {}
+KdTree::~KdTree() = default;
+KdTree::KdTree(KdTree&&) noexcept = default;
+KdTree& KdTree::operator=(KdTree&&) noexcept = default;
+
+size_t KdTree::nearest(const Eigen::Vector3f& query, float max_distance,
+                       float& squared_distance) const {
+  if (!index_) return kNone;
+  uint32_t found = 0;
+  float squared = 0;
+  nanoflann::KNNResultSet<float, uint32_t> result(1);
+  result.init(&found, &squared);
+  // A bound from the start prunes most of the tree for points without a partner.
+  result.addPoint(max_distance * max_distance, UINT32_MAX);
+  index_->tree.findNeighbors(result, query.data(), {});
+  if (found == UINT32_MAX) return kNone;
+  squared_distance = squared;
+  return found;
+}
+
+void KdTree::nearest(const Eigen::Vector3f& query, size_t k, std::vector<uint32_t>& indices) const {
+  indices.resize(index_ ? k : 0);
+  if (!index_) return;
+  thread_local std::vector<float> squared;
+  squared.resize(k);
+  indices.resize(index_->tree.knnSearch(query.data(), k, indices.data(), squared.data()));
+}
+
+}  // namespace lamp

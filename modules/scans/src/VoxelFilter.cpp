@@ -1,0 +1,98 @@
+#include "lamp/scans/VoxelFilter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace lamp {
+
+namespace {
+
+struct Cell {
+  int x, y, z;
+  uint8_t sensor;
+  bool operator==(const Cell& o) const {
+    return x == o.x && y == o.y && z == o.z && sensor == o.sensor;
+  }
+};
+
+struct CellHash {
+  size_t operator()(const Cell& c) const {
+    size_t h = static_cast<uint32_t>(c.x) * size_t{73856093};
+    h ^= static_cast<uint32_t>(c.y) * size_t{19349669};
+    h ^= static_cast<uint32_t>(c.z) * size_t{83492791};
+    return h ^ (size_t{c.sensor} << 48);
+  }
+};
+
+struct Sum {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double intensity = 0;
+  int count = 0;
+  uint8_t sensor = 0;
+};
+
+}  // namespace
+
+Scan voxelFilter(const Scan& scan, double leaf_m) {
+  std::unordered_map<Cell, size_t, CellHash> place;
+  place.reserve(scan.size());
+  std::vector<Sum> sums;
+  for (size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector3d cell = (scan.points[i].cast<double>() / leaf_m).array().floor();
+    const auto [found, is_new] =
+        place.emplace(Cell{static_cast<int>(cell.x()), static_cast<int>(cell.y()),
+                           static_cast<int>(cell.z()), scan.sensor[i]},
+                      sums.size());
+    if (is_new) sums.push_back({});
+    Sum& sum = sums[found->second];
+    sum.point += scan.points[i].cast<double>();
+    if (scan.hasIntensity()) sum.intensity += scan.intensity[i];
+    ++sum.count;
+    sum.sensor = scan.sensor[i];
+  }
+
+  Scan result;
+  result.sensors = scan.sensors;
+  for (const Sum& sum : sums) {
+    result.points.push_back((sum.point / sum.count).cast<float>());
+    if (scan.hasIntensity())
+      result.intensity.push_back(static_cast<float>(sum.intensity / sum.count));
+    result.sensor.push_back(sum.sensor);
+  }
+  return result;
+}
+
+void AdaptiveVoxelOptions::visit(OptionVisitor& v) {
+  v("target_points", target_points, "", "number of points that a keyed scan should have", {1});
+  v("initial_leaf_m", initial_leaf_m, "m", "leaf size for the first scan", kPositive);
+  v("min_leaf_m", min_leaf_m, "m", "smallest leaf size", kPositive);
+  v("max_leaf_m", max_leaf_m, "m", "largest leaf size", kPositive);
+  v("max_passes", max_passes, "", "how often one scan is filtered to come near the target", {1});
+}
+
+AdaptiveVoxelFilter::AdaptiveVoxelFilter(const AdaptiveVoxelOptions& options)
+    : options_(options),
+      leaf_(std::clamp(options.initial_leaf_m, options.min_leaf_m,
+                       std::max(options.min_leaf_m, options.max_leaf_m))) {}
+
+Scan AdaptiveVoxelFilter::filter(const Scan& scan) {
+  constexpr double kCloseEnough = 0.1;
+  Scan filtered = voxelFilter(scan, leaf_);
+  for (int pass = 1; pass < options_.max_passes && !filtered.points.empty(); ++pass) {
+    const double next = corrected(filtered.size());
+    if (std::abs(next / leaf_ - 1.0) < 0.5 * kCloseEnough) break;
+    leaf_ = next;
+    filtered = voxelFilter(scan, leaf_);
+  }
+  return filtered;
+}
+
+double AdaptiveVoxelFilter::corrected(size_t points) const {
+  // Surfaces fill a grid with about 1/leaf² cells, hence the root.
+  const double ratio = std::sqrt(static_cast<double>(points) / options_.target_points);
+  return std::clamp(leaf_ * ratio, options_.min_leaf_m,
+                    std::max(options_.min_leaf_m, options_.max_leaf_m));
+}
+
+}  // namespace lamp

@@ -1,0 +1,3 @@
+#pragma once
+
+#include "lamp/upper/Upper.h"

@@ -1,0 +1,1 @@
+#include "lamp/unlisted/Unlisted.h"

@@ -1,0 +1,2 @@
+#include "lamp/lower/Lower.h"
+#include "lamp/upper/Upper.h"
