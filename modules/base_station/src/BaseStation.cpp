@@ -14,7 +14,6 @@ namespace lamp {
 namespace {
 
 using mrpt::system::CTimeLoggerEntry;
-using Role = PreparedScanStore::Role;
 
 /** Moves the scans since the previous key node, and the key node's own, to the world. The
  * correction that optimisation made at the two key nodes is blended over the time between them. */
@@ -144,9 +143,8 @@ void BaseStation::computeRound(size_t budget) {
   {
     const CTimeLoggerEntry timing(timer_, "registration");
     tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
-      attempts[i] =
-          computation_.compute(*scans_.get({candidates[i].to, Role::kSource}),
-                               *scans_.get({candidates[i].from, Role::kTarget}), guesses[i]);
+      attempts[i] = computation_.compute(*scans_.get(scans_.source(candidates[i])),
+                                         *scans_.get(scans_.target(candidates[i])), guesses[i]);
     });
   }
   for (size_t i = 0; i < candidates.size(); ++i)
@@ -187,8 +185,8 @@ void BaseStation::prepareScans(const std::vector<LoopClosureCandidate>& candidat
   const CTimeLoggerEntry timing(timer_, "registration.prepare");
   std::vector<PreparedScanStore::Key> wanted;
   for (const LoopClosureCandidate& candidate : candidates) {
-    wanted.push_back({candidate.to, Role::kSource});
-    wanted.push_back({candidate.from, Role::kTarget});
+    wanted.push_back(scans_.source(candidate));
+    wanted.push_back(scans_.target(candidate));
   }
   const auto missing = scans_.missing(std::move(wanted));
   std::vector<PreparedScanPtr> prepared(missing.size());

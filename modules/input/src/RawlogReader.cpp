@@ -10,6 +10,7 @@
 
 #include <stdexcept>
 
+#include "AllocationLimit.h"
 #include "ObjectHeader.h"
 #include "RewindableStream.h"
 
@@ -17,6 +18,8 @@ namespace lamp {
 namespace {
 
 constexpr size_t kMaxMessages = 10;
+/** Several times what the largest object that we read needs. */
+constexpr size_t kMaxObjectMemory = 4 * RewindableStream::kMaxKeptBytes;
 
 /** Linkers drop libraries that are only needed for their initialisers. */
 void registerRecordedClasses() {
@@ -94,6 +97,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::readObject(uint64_t start)
     return nullptr;
   }
   try {
+    const AllocationLimit limit(kMaxObjectMemory);
     auto object = mrpt::serialization::archiveFrom(*stream_).ReadObject();
     ++report_.objects;
     return object;

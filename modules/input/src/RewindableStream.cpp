@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "AnnouncedSize.h"
+
 namespace lamp {
 namespace {
 
@@ -76,14 +78,26 @@ double RewindableStream::progress() const {
   return std::clamp(read / static_cast<double>(file_size_), 0.0, 1.0);
 }
 
-size_t RewindableStream::Read(void* buffer, size_t count) {
+void RewindableStream::require(size_t count) {
   if (count > kMaxKeptBytes - std::min(cursor_ - mark_, kMaxKeptBytes)) {
     throw std::runtime_error("object larger than any that a rawlog may hold");
   }
-  if (prepare(count) < count) {
-    ran_out_ = true;
-    throw std::runtime_error("end of the data");
-  }
+  if (prepare(count) >= count) return;
+  ran_out_ = true;
+  throw std::runtime_error("end of the data");
+}
+
+size_t RewindableStream::sizeOfWhatFollows() {
+  const size_t ready = prepare(2 * sizeof(uint32_t));
+  const auto* bytes = reinterpret_cast<const char*>(buffer_.data());
+  const uint64_t size = announcedSize({bytes + mark_, cursor_ - mark_},
+                                      {bytes + cursor_, std::min<size_t>(ready, 8)});
+  return static_cast<size_t>(std::min<uint64_t>(size, kMaxKeptBytes));
+}
+
+size_t RewindableStream::Read(void* buffer, size_t count) {
+  require(count);
+  if (count == sizeof(uint32_t)) require(count + sizeOfWhatFollows());
   if (count > 0) std::memcpy(buffer, data(), count);
   cursor_ += count;
   return count;

@@ -52,6 +52,10 @@ class RewindableStream : public mrpt::io::CStream {
     void operator()(gzFile file) const { gzclose_r(file); }
   };
   void fetch();
+  /** \throws std::runtime_error unless so many bytes are there. */
+  void require(size_t count);
+  /** If the next number is a size: of how many bytes at least, up to kMaxKeptBytes. */
+  size_t sizeOfWhatFollows();
 
   std::unique_ptr<gzFile_s, Close> file_;
   uint64_t file_size_ = 0;

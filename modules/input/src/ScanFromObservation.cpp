@@ -44,6 +44,8 @@ std::optional<SensorReturns> returnsOfAny(const CObservation& observation) {
 void ScanOptions::visit(OptionVisitor& v) {
   v("min_range_m", min_range_m, "m", "Returns nearer to the lidar are left out.", kNotNegative);
   v("max_range_m", max_range_m, "m", "Returns farther from the lidar are left out.", kPositive);
+  v("laser_aperture_deg", laser_aperture_deg, "deg",
+    "Field of view of 2D lasers, where the recording has it wrong; 0 as recorded.", {0, 360});
 }
 
 bool isLidar(const CObservation& o) {
@@ -60,8 +62,11 @@ bool isPlanarLaser(const CObservation& observation) {
 
 std::optional<Scan> scanFromObservation(const CObservation& observation, const std::string& label,
                                         const ScanOptions& options) {
-  const auto returns = returnsOfAny(observation);
+  auto returns = returnsOfAny(observation);
   if (!returns) return {};
+  if (const auto* laser = dynamic_cast<const CObservation2DRangeScan*>(&observation);
+      laser && options.laser_aperture_deg > 0)
+    returns = returnsOf(*laser, options.laser_aperture_deg * M_PI / 180.0);
   mrpt::poses::CPose3D sensor_pose;
   observation.getSensorPose(sensor_pose);
   const Pose3 base_T_sensor = poseFromMrpt(sensor_pose);

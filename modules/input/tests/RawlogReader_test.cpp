@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <sys/resource.h>
 
 #include "RecordingTools.h"
 
@@ -184,6 +185,23 @@ TEST(RawlogReader, SavesTheObservationsOfADamagedFrame) {
   RawlogReader reader(path);
   EXPECT_THAT(stampsIn(reader), ElementsAre(1, 3, 4));
   EXPECT_EQ(reader.report().unknown_classes.at("mrpt::obs::CObservationPointClown"), 1u);
+}
+
+TEST(RawlogReader, CorruptSizesDoNotFillTheMemory) {
+  const std::string path = freshFolder() + "/huge.rawlog";
+  const auto damaged = cloud(2, "lidar", 1000);
+  std::string bytes = bytesOf(*damaged);
+  const size_t count = bytes.find(std::string("\xe8\x03\0\0", 4));  // 1000 points
+  ASSERT_NE(count, std::string::npos);
+  bytes.replace(count, 4, std::string("\xff\xff\xff\x7f", 4));
+  writeFile(path, bytesOf(*cloud(1, "lidar")) + bytes + bytesOf(*cloud(3, "lidar")));
+  RawlogReader reader(path);
+  EXPECT_THAT(stampsIn(reader), ElementsAre(1, 3));
+  EXPECT_EQ(reader.report().damaged_objects, 1u);
+  EXPECT_EQ(reader.report().bytes_skipped, bytes.size());
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  EXPECT_LT(usage.ru_maxrss, 2 << 20) << "KiB";
 }
 
 TEST(RawlogReader, PassesOverComments) {

@@ -4,7 +4,7 @@
 
 #include "PoseProblem.h"
 #include "TruncatedLeastSquares.h"
-#include "lamp/pose_graph/ChiSquare.h"
+#include "lamp/core/ChiSquare.h"
 #include "lamp/pose_graph/InitialGuess.h"
 
 IMPLEMENTS_MRPT_OBJECT(Gnc, Optimizer, lamp)

@@ -1,4 +1,4 @@
-#include "lamp/pose_graph/ChiSquare.h"
+#include "lamp/core/ChiSquare.h"
 
 #include <gtest/gtest.h>
 

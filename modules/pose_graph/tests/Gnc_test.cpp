@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "TestGraphs.h"
-#include "lamp/pose_graph/ChiSquare.h"
+#include "lamp/core/ChiSquare.h"
 
 namespace lamp {
 namespace {

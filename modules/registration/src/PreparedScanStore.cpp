@@ -15,20 +15,25 @@ void PreparedScanStore::add(const KeyframePacket& packet) {
   keyframes_[packet.id] = {packet.odom_T_base, packet.scan, packet.planar};
 }
 
-std::vector<KeyframeId> PreparedScanStore::members(const Key& key) const {
-  if (key.role == Role::kSource) return {key.id};
+PreparedScanStore::Key PreparedScanStore::target(const LoopClosureCandidate& candidate) const {
   const auto reach = static_cast<uint32_t>(options_.accumulate_neighbors);
+  Key key{candidate.from, reach, reach};
+  if (candidate.from.robot == candidate.to.robot && candidate.to.index > candidate.from.index)
+    key.after = std::min(reach, candidate.to.index - candidate.from.index - 1);
+  return key;
+}
+
+std::vector<KeyframeId> PreparedScanStore::members(const Key& key) const {
   std::vector<KeyframeId> ids;
-  const uint32_t first = key.id.index > reach ? key.id.index - reach : 0;
-  for (uint32_t index = first; index <= key.id.index + reach; ++index)
+  const uint32_t first = key.id.index > key.before ? key.id.index - key.before : 0;
+  for (uint32_t index = first; index <= key.id.index + key.after; ++index)
     if (keyframes_.count({key.id.robot, index})) ids.push_back({key.id.robot, index});
   return ids;
 }
 
 std::vector<PreparedScanStore::Key> PreparedScanStore::missing(std::vector<Key> wanted) const {
   std::sort(wanted.begin(), wanted.end());
-  const auto same = [](const Key& a, const Key& b) { return KeyEqual()(a, b); };
-  wanted.erase(std::unique(wanted.begin(), wanted.end(), same), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   const auto done = [&](const Key& key) {
     const auto found = entries_.find(key);
     return found != entries_.end() && found->second.scans == members(key).size();

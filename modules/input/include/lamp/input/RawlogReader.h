@@ -30,6 +30,9 @@ struct RawlogReport {
  * goes on at the next object header (class name length with the top bit set, then the name of a
  * registered class that may stand in a rawlog). Observations within a damaged sensory frame are
  * saved one by one. MRPT's own reader stops silently in these cases.
+ *
+ * Corrupt sizes are bounded, but MRPT's deserialisers trust the rest of what they read: an altered
+ * byte at the wrong place of an object that is not compressed can still crash the program.
  */
 class RawlogReader {
  public:

@@ -14,6 +14,7 @@ namespace lamp {
 struct ScanOptions {
   double min_range_m = 0.1;
   double max_range_m = 120.0;
+  double laser_aperture_deg = 0;
 
   void visit(OptionVisitor& v);
 };

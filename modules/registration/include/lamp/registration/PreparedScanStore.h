@@ -1,9 +1,12 @@
 #pragma once
 
+#include <map>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
 #include "lamp/core/KeyframePacket.h"
+#include "lamp/core/LoopClosure.h"
 #include "lamp/core/Options.h"
 #include "lamp/scans/PreparedScan.h"
 
@@ -23,16 +26,24 @@ struct PreparationOptions {
  */
 class PreparedScanStore {
  public:
-  enum class Role { kSource, kTarget };
+  /** A key node's scan with up to so many neighbours on each side. */
   struct Key {
     KeyframeId id;
-    Role role = Role::kSource;
+    uint32_t before = 0, after = 0;
+
     friend bool operator<(const Key& a, const Key& b) {
-      return std::tie(a.id, a.role) < std::tie(b.id, b.role);
+      return std::tie(a.id, a.before, a.after) < std::tie(b.id, b.before, b.after);
+    }
+    friend bool operator==(const Key& a, const Key& b) {
+      return a.id == b.id && a.before == b.before && a.after == b.after;
     }
   };
 
   explicit PreparedScanStore(const PreparationOptions& options) : options_(options) {}
+
+  Key source(const LoopClosureCandidate& candidate) const { return {candidate.to, 0, 0}; }
+  /** Never reaches the source, which would otherwise be matched with itself. */
+  Key target(const LoopClosureCandidate& candidate) const;
 
   void add(const KeyframePacket& packet);
   /** The sorted, distinct keys among `wanted` that are not prepared yet, or were prepared before
@@ -50,14 +61,6 @@ class PreparedScanStore {
     KeyedScanPtr scan;
     bool planar = false;
   };
-  struct KeyHash {
-    size_t operator()(const Key& k) const {
-      return std::hash<KeyframeId>()(k.id) * 2 + (k.role == Role::kTarget ? 1 : 0);
-    }
-  };
-  struct KeyEqual {
-    bool operator()(const Key& a, const Key& b) const { return a.id == b.id && a.role == b.role; }
-  };
   struct Entry {
     PreparedScanPtr prepared;
     size_t scans = 0;  ///< how many scans it was made of
@@ -67,7 +70,7 @@ class PreparedScanStore {
 
   PreparationOptions options_;
   std::unordered_map<KeyframeId, Keyframe> keyframes_;
-  std::unordered_map<Key, Entry, KeyHash, KeyEqual> entries_;
+  std::map<Key, Entry> entries_;
 };
 
 }  // namespace lamp
