@@ -28,8 +28,8 @@ class Refiner : public Stage {
 struct RegistrationCovarianceOptions {
   double sigma_m = 0.05;
   double correlated_points = 20;
-  double floor_sigma_m = 0.02;
-  double floor_sigma_deg = 0.2;
+  double floor_sigma_m = 0.05;
+  double floor_sigma_deg = 0.5;
   double max_sigma_m = 1.0;
 
   void visit(OptionVisitor& v);
