@@ -10,7 +10,6 @@
 
 #include <stdexcept>
 
-#include "AllocationLimit.h"
 #include "ObjectHeader.h"
 #include "RewindableStream.h"
 
@@ -18,8 +17,6 @@ namespace lamp {
 namespace {
 
 constexpr size_t kMaxMessages = 10;
-/** Several times what the largest object that we read needs. */
-constexpr size_t kMaxObjectMemory = 4 * RewindableStream::kMaxKeptBytes;
 
 /** Linkers drop libraries that are only needed for their initialisers. */
 void registerRecordedClasses() {
@@ -97,7 +94,6 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::readObject(uint64_t start)
     return nullptr;
   }
   try {
-    const AllocationLimit limit(kMaxObjectMemory);
     auto object = mrpt::serialization::archiveFrom(*stream_).ReadObject();
     ++report_.objects;
     return object;

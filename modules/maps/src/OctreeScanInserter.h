@@ -2,6 +2,9 @@
 
 #include <octomap/OcTree.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "lamp/core/Geometry.h"
 #include "lamp/core/KeyedScan.h"
 
@@ -25,8 +28,9 @@ class OctreeScanInserter {
   octomap::OcTree& tree_;
   double max_range_m_;
   size_t rays_out_of_bounds_ = 0;
-  // Members only to keep their memory from scan to scan.
-  octomap::KeySet free_, occupied_;
+  // Voxels by their place on a Z-order curve; sorted, so that the tree is walked from neighbour to
+  // neighbour. Members only to keep their memory from scan to scan.
+  std::vector<uint64_t> free_, occupied_;
   octomap::KeySet hit_ends_, cut_ends_;  ///< ends of this sensor's rays so far
   octomap::KeyRay ray_;
 };
