@@ -13,6 +13,20 @@ namespace {
 const std::string kRobotPrefix = "robot.";
 const std::string kStagePrefix = "lamp::";
 
+const char* const kParametersIntroduction = R"(# Parameters
+
+Every section and key of an experiment file, with its default. This page is what `lamp-slam --dump-parameters` prints.
+
+- A stage is named in `[pipeline]` as `Class` or, for several instances, `Class@name`; its options are in `[lamp::Class]` or
+  `[lamp::Class@name]`.
+- `--set section.key=value` overrides one key; `--dump-config` prints what would be run.
+- `//` after white space starts a comment; `@define NAME VALUE`, `${NAME}` and `$env{NAME}` work as in MRPT.
+- Unknown sections and keys, malformed numbers and duplicates are errors; all are listed at once, with file and line.
+
+## Sections
+
+)";
+
 /** The interfaces whose implementations the ini can name, with the `[pipeline]` key of each. */
 struct StageKind {
   const char* key;
@@ -246,7 +260,7 @@ std::string describeParameters() {
     options.visit(writer);
     return writer.text() + "\n";
   };
-  std::string text = "## Sections\n\n";
+  std::string text = kParametersIntroduction;
   text += table("plugins", PluginOptions{}) + table("run", RunOptions{}) +
           table("input", InputOptions{}) + table("pipeline", PipelineOptions{}) +
           table("frontend", FrontEndOptions{}) + table("registration", PreparationOptions{}) +

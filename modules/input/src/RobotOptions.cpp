@@ -4,24 +4,24 @@ namespace lamp {
 
 void RobotOptions::visit(OptionVisitor& v) {
   v("rawlog", rawlog,
-    "Recording of this robot; empty where its observations are found by the label's part before "
-    "the first slash.");
-  v("key", key, "Letter of the robot in 64-bit symbols; empty for the next free one.");
+    "recording of this robot; empty where its observations are found by the label's part before "
+    "the first slash");
+  v("key", key, "letter of the robot in 64-bit symbols; empty for the next free one");
   v("start_pose", start_pose, 6, "m, deg",
-    "Pose of the base in the world at the first key node, [x y z yaw pitch roll]; empty if "
-    "unknown.");
+    "pose of the base in the world at the first key node, [x y z yaw pitch roll]; empty if "
+    "unknown");
   v("start_sigma_xyz_m", start_sigma_xyz_m, "m",
-    "Standard deviation of the start position on each axis; 0 for the default of the front end.",
+    "standard deviation of the start position on each axis; 0 for the default of the front end",
     kNotNegative);
   v("start_sigma_rot_deg", start_sigma_rot_deg, "deg",
-    "Standard deviation of the start rotation about each axis; 0 for the default of the front "
-    "end.",
+    "standard deviation of the start rotation about each axis; 0 for the default of the front "
+    "end",
     kNotNegative);
   v("odometry_file", odometry_file,
-    "TUM trajectory that is used instead of the recorded odometry; empty for the recorded one.");
+    "TUM trajectory that is used instead of the recorded odometry; empty for the recorded one");
   v("odometry_label", odometry_label,
-    "Sensor label of the odometry to use; empty for the first odometry in the recording.");
-  v("lidar_labels", lidar_labels, "Sensor labels of the lidars to use; empty for every lidar.");
+    "sensor label of the odometry to use; empty for the first odometry in the recording");
+  v("lidar_labels", lidar_labels, "sensor labels of the lidars to use; empty for every lidar");
 }
 
 }  // namespace lamp

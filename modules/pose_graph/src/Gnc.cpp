@@ -126,12 +126,12 @@ class GncRun {
 
 void GncOptions::visit(OptionVisitor& v) {
   v("inlier_probability", inlier_probability, "",
-    "Share of true loop closures whose squared residual is to stay below the threshold.",
+    "share of true loop closures whose squared residual is to stay below the threshold",
     {0.0, 1.0 - 1e-12});
-  v("mu_step", mu_step, "", "Factor by which the control parameter mu grows from round to round.",
+  v("mu_step", mu_step, "", "factor by which the control parameter mu grows from round to round",
     {1.01});
-  v("max_rounds", max_rounds, "", "Most rounds of graduation.", kPositive);
-  v("inner_iterations", inner_iterations, "", "Most iterations of the solve in each round.",
+  v("max_rounds", max_rounds, "", "most rounds of graduation", kPositive);
+  v("inner_iterations", inner_iterations, "", "most iterations of the solve in each round",
     kPositive);
   final_solve.visit(v);
 }

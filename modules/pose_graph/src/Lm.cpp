@@ -7,12 +7,12 @@ IMPLEMENTS_MRPT_OBJECT(Lm, Optimizer, lamp)
 namespace lamp {
 
 void LmOptions::visit(OptionVisitor& v) {
-  v("max_iterations", max_iterations, "", "Most Levenberg-Marquardt iterations of a solve.",
+  v("max_iterations", max_iterations, "", "most Levenberg-Marquardt iterations of a solve",
     kPositive);
   v("function_tolerance", function_tolerance, "",
-    "A solve stops when an iteration lowers the cost by less than this share.", kNotNegative);
+    "A solve stops when an iteration lowers the cost by less than this share", kNotNegative);
   v("initial_trust_region_radius", initial_trust_region_radius, "",
-    "First radius of the trust region; large values make the first steps Gauss-Newton steps.",
+    "first radius of the trust region; large values make the first steps Gauss-Newton steps",
     kPositive);
 }
 

@@ -10,7 +10,7 @@ struct CloudOptions {
 
   void visit(OptionVisitor& v) {
     v("voxel_m", voxel_m, "m",
-      "Edge of the voxels that keep one point each, the first; 0 keeps every point.", kNotNegative);
+      "edge of the voxels that keep one point each, the first; 0 keeps every point", kNotNegative);
   }
 };
 

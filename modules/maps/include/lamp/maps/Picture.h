@@ -14,14 +14,14 @@ struct PictureOptions {
   bool rejected_loops = true;
 
   void visit(OptionVisitor& v) {
-    v("size_px", size_px, "px", "Longer side of the map within the picture.", Range{100, 8000});
+    v("size_px", size_px, "px", "longer side of the map within the picture", Range{100, 8000});
     v("finest_pixel_m", finest_pixel_m, "m",
-      "Small maps are drawn smaller rather than with pixels below this size, which would tear "
+      "small maps are drawn smaller rather than with pixels below this size, which would tear "
       "walls "
-      "into dots.",
+      "into dots",
       kPositive);
-    v("tint", tint, "Whether points are shaded in the colours of the robots that saw them.");
-    v("rejected_loops", rejected_loops, "Whether rejected loop closures are drawn.");
+    v("tint", tint, "whether points are shaded in the colours of the robots that saw them");
+    v("rejected_loops", rejected_loops, "whether rejected loop closures are drawn");
   }
 };
 
