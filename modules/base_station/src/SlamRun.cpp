@@ -117,7 +117,8 @@ std::string SlamRun::run() {
   const RunFolder folder = RunFolder::create(job_.out);
   const tbb::global_control thread_limit(tbb::global_control::max_allowed_parallelism,
                                          static_cast<size_t>(job_.threads));
-  CTimeLogger timer(true, "lamp-slam", true);
+  CTimeLogger timer(true, "lamp-slam");
+  timer.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // it would print itself when destroyed
   BaseStation base_station(config_, timer);
   base_station.setMinLoggingLevel(getMinLoggingLevel());
 
@@ -147,7 +148,6 @@ std::string SlamRun::run() {
     warn(report.warnings, "robot '" + robots.name(report.robot) + "': ");
   writeRun(folder, result, timer);
   writeTimings(folder, timer, job_.threads);
-  timer.clear(true);
   return describeRun(folder, result);
 }
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "TemporaryFolder.h"
+
+namespace lamp::test {
+
+/** How a run of lamp-slam ended. */
+struct LampResult {
+  int exit_code = -1;  ///< -1 if a signal ended it
+  std::string out, err;
+};
+
+/** The real program lamp-slam, running. */
+class LampProcess {
+ public:
+  explicit LampProcess(const std::vector<std::string>& arguments);
+  /** Kills it if nobody has waited for it. */
+  ~LampProcess();
+  LampProcess(const LampProcess&) = delete;
+  LampProcess& operator=(const LampProcess&) = delete;
+
+  /** Ctrl-C. */
+  void interrupt() const;
+  bool isRunning();
+  LampResult wait();
+
+ private:
+  TemporaryFolder outputs_;
+  pid_t pid_ = 0;
+  int status_ = 0;
+};
+
+/** Runs lamp-slam to its end. */
+LampResult runLamp(const std::vector<std::string>& arguments);
+
+}  // namespace lamp::test
