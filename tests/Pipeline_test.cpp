@@ -1,4 +1,5 @@
-// The main way from recordings to a run folder, through the real program, on worlds with known truth.
+// The main way from recordings to a run folder, through the real program, on worlds with known
+// truth.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -75,9 +76,8 @@ TEST_P(Planar, LoopClosesInThePlane) {
   const SyntheticRobot driver = robot("A", ringRoute(), 3);
   const Recording recording = pairs ? driver.recordPlanarPairs(world) : driver.recordPlanar(world);
   const Experiment experiment;
-  const LampResult end =
-      experiment.run({experiment.file("planar.ini", iniForPlanar()),
-                      experiment.rawlog("A.rawlog", recording.objects)});
+  const LampResult end = experiment.run({experiment.file("planar.ini", iniForPlanar()),
+                                         experiment.rawlog("A.rawlog", recording.objects)});
   ASSERT_EQ(end.exit_code, 0) << end.err;
 
   const FinishedRun run = experiment.result();
@@ -160,8 +160,7 @@ TEST_F(TwoRobots, StaySeparateWithoutStartPoses) {
 TEST(RobotsThatNeverMeet, GiveTwoMaps) {
   const Eigen::Vector2d far_away(150, 80);
   const Recording a = robot("A", ringRoute(), 1).record3d(BoxWorld::building(kWorldSeed));
-  const Recording b =
-      robot("B", shortRoute(far_away), 2).record3d(BoxWorld::building(8, far_away));
+  const Recording b = robot("B", shortRoute(far_away), 2).record3d(BoxWorld::building(8, far_away));
   const Experiment experiment;
   const std::string starts =
       startSection("A", a.truth.front().pose) + startSection("B", b.truth.front().pose);
@@ -185,11 +184,13 @@ TEST(OneRobot, IsNamedByItsFileAndMapped) {
       robot("left over/not a name", shortRoute(), 1).record3d(BoxWorld::building(kWorldSeed));
   for (const auto& object : recording.objects) {
     auto& observation = dynamic_cast<mrpt::obs::CObservation&>(*object);
-    observation.sensorLabel = observation.sensorLabel.substr(observation.sensorLabel.rfind('/') + 1);
+    observation.sensorLabel =
+        observation.sensorLabel.substr(observation.sensorLabel.rfind('/') + 1);
   }
   const Experiment experiment;
-  const LampResult end = experiment.run({experiment.file("one.ini", iniFor3d()),
-                                         experiment.rawlog("my robot.1.rawlog", recording.objects)});
+  const LampResult end =
+      experiment.run({experiment.file("one.ini", iniFor3d()),
+                      experiment.rawlog("my robot.1.rawlog", recording.objects)});
   ASSERT_EQ(end.exit_code, 0) << end.err;
   EXPECT_THAT(end.out, HasSubstr("map 1 of 1: my_robot_1"));
   EXPECT_THAT(end.out, Not(HasSubstr("separate")));

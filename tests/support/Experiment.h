@@ -51,15 +51,14 @@ class Experiment {
 
   /** Runs lamp-slam with `--out` at the folder `name`. */
   LampResult run(const std::vector<std::string>& arguments, const std::string& name = "run") const;
-  FinishedRun result(const std::string& name = "run") const {
-    return FinishedRun(folder_ / name);
-  }
+  FinishedRun result(const std::string& name = "run") const { return FinishedRun(folder_ / name); }
 
  private:
   TemporaryFolder folder_;
 };
 
-/** An ini for the worlds of BoxWorld, with `more` at the end; no maps unless `exporters` says so. */
+/** An ini for the worlds of BoxWorld, with `more` at the end; no maps unless `exporters` says so.
+ */
 std::string iniFor3d(const std::string& exporters = "", const std::string& more = "");
 std::string iniForPlanar(const std::string& exporters = "");
 /** A `[robot.NAME]` section with a start pose. */

@@ -60,7 +60,9 @@ LampProcess::~LampProcess() {
   ::waitpid(pid_, &status_, 0);
 }
 
-void LampProcess::interrupt() const { ::kill(pid_, SIGINT); }
+void LampProcess::interrupt() const {
+  ::kill(pid_, SIGINT);
+}
 
 bool LampProcess::isRunning() {
   if (pid_ != 0 && ::waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = 0;

@@ -225,7 +225,9 @@ std::vector<Eigen::Vector2d> ringRoute(const Eigen::Vector2d& origin) {
   return moved({{3, 3}, {17, 3}, {17, 12}, {3, 12}, {3, 3}, {9, 3}}, origin);
 }
 
-std::vector<Eigen::Vector2d> oppositeRoute() { return {{17, 9}, {17, 3}, {3, 3}, {3, 9}}; }
+std::vector<Eigen::Vector2d> oppositeRoute() {
+  return {{17, 9}, {17, 3}, {3, 3}, {3, 9}};
+}
 
 std::vector<Eigen::Vector2d> shortRoute(const Eigen::Vector2d& origin) {
   return moved({{3, 3}, {11, 3}}, origin);

@@ -57,13 +57,12 @@ void BaseStation::receive(const RobotEnd& end) {
   trailing_scans_[end.robot] = end.passed_scans;
 }
 
-void BaseStation::finish(bool interrupted) {
-  if (!interrupted) {
-    // Each optimisation can bring key nodes together that were too far apart before.
-    for (computeRound(0); !optimized_all_; computeRound(0)) optimize();
-  } else if (!optimized_all_) {
-    optimize();
-  }
+void BaseStation::finish(const std::atomic<bool>& interrupted) {
+  // Each optimisation can bring key nodes together that were too far apart before.
+  do {
+    if (!interrupted) computeRound(0);
+    if (!optimized_all_) optimize();
+  } while (queue_.size() > 0 && !interrupted);
 }
 
 void BaseStation::registerNode(const KeyframePacket& packet) {

@@ -23,7 +23,7 @@ Progress::Progress()
     : on_terminal_(::isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_shown_(start_) {}
 
 Progress::~Progress() {
-  clear();
+  if (shown_) std::cerr << "\r\033[K" << std::flush;
 }
 
 void Progress::show(double share, const std::string& detail) {
@@ -35,11 +35,6 @@ void Progress::show(double share, const std::string& detail) {
   std::string line = std::to_string(static_cast<int>(100.0 * share)) + " %";
   if (share > 0.01) line += ", " + minutes(elapsed * (1.0 - share) / share) + " left";
   std::cerr << "\r\033[K" << line << ", " << detail << std::flush;
-}
-
-void Progress::clear() {
-  if (shown_) std::cerr << "\r\033[K" << std::flush;
-  shown_ = false;
 }
 
 }  // namespace lamp

@@ -9,11 +9,10 @@ namespace lamp {
 class Progress {
  public:
   Progress();
+  /** Removes the line, so that other text can follow. */
   ~Progress();
   /** \param share of the work done, 0 to 1; \param detail shown behind the time left. */
   void show(double share, const std::string& detail);
-  /** Removes the line, so that other text can follow. */
-  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -61,11 +61,17 @@ ComponentMap makeMap(const RunResult& result, const Component& component) {
   return map;
 }
 
-void writeMaps(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer) {
+void writeMaps(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer,
+               const WriteProgress& progress) {
   const auto components = result.base_station.graph().components();
+  const auto& exporters = result.config.stages.exporters;
+  size_t written = 0;
   for (size_t rank = 0; rank < components.size(); ++rank) {
     const ComponentMap map = makeMap(result, components[rank]);
-    for (const auto& exporter : result.config.stages.exporters) {
+    for (const auto& exporter : exporters) {
+      progress(static_cast<double>(written++) / (components.size() * exporters.size()),
+               "writing map " + std::to_string(rank + 1) + " of " +
+                   std::to_string(components.size()) + ": " + exporter->getLoggerName());
       const CTimeLoggerEntry timing(timer, ("maps." + exporter->getLoggerName()).c_str());
       exporter->exportMap(map, folder.mapStem(rank));
     }
@@ -80,8 +86,10 @@ std::string names(const RobotTable& robots, const std::vector<RobotId>& ids) {
 
 }  // namespace
 
-void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer) {
+void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer,
+              const WriteProgress& progress) {
   const BaseStation& base = result.base_station;
+  folder.createSubfolders();
   {
     const CTimeLoggerEntry timing(timer, "run_folder");
     writeTextFile(folder.config(), result.config.text());
@@ -93,7 +101,7 @@ void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CT
     writeTextFile(folder.verdicts(), base.ledger().verdicts().text());
     writeKeyframes(folder, result);
   }
-  writeMaps(folder, result, timer);
+  writeMaps(folder, result, timer, progress);
   writeTextFile(folder.summary(), summarize(result).dump(2) + "\n");
 }
 

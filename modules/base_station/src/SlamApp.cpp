@@ -24,6 +24,24 @@ void onInterrupt(int signal) {
   ::signal(signal, SIG_DFL);
 }
 
+/** MRPT's loggers print warnings on stdout, which is for results. While it lives, stderr gets what
+ * is written to stdout. */
+class StdoutToStderr {
+ public:
+  StdoutToStderr() : stdout_(std::cout.rdbuf(std::cerr.rdbuf())) {}
+  ~StdoutToStderr() { std::cout.rdbuf(stdout_); }
+  StdoutToStderr(const StdoutToStderr&) = delete;
+  StdoutToStderr& operator=(const StdoutToStderr&) = delete;
+
+ private:
+  std::streambuf* const stdout_;
+};
+
+std::string runLogged(SlamRun& slam) {
+  const StdoutToStderr logs;
+  return slam.run();
+}
+
 struct Arguments {
   std::string config;
   std::vector<std::string> rawlogs;
@@ -104,7 +122,7 @@ int run(const Arguments& arguments) {
   SlamRun slam(std::move(config), {arguments.rawlogs, arguments.out, arguments.threads},
                interrupted);
   slam.setMinLoggingLevel(kLevels.at(arguments.log));
-  std::cout << slam.run();
+  std::cout << runLogged(slam);
   if (interrupted) std::cout << "The run was interrupted: this is the map up to there.\n";
   return kOk;
 }

@@ -123,12 +123,10 @@ SlamConfig SlamConfig::fromFile(const std::string& path,
   Faults faults;
   Ini ini = Ini::fromFile(path, faults);
   for (const std::string& assignment : overrides) ini.set(assignment, faults);
-  faults.throwIfAny();
-  return SlamConfig(std::move(ini));
+  return SlamConfig(std::move(ini), std::move(faults));
 }
 
-SlamConfig::SlamConfig(Ini ini) : ini_(std::move(ini)) {
-  Faults faults;
+SlamConfig::SlamConfig(Ini ini, Faults faults) : ini_(std::move(ini)) {
   readOptions(ini_.find("plugins"), plugins, faults);
   loadPlugins(plugins.load);
   readOptions(ini_.find("run"), run, faults);

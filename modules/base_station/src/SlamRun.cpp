@@ -124,8 +124,8 @@ std::string SlamRun::run() {
 
   InProcessQueue queue(kQueuedMessages);
   FrontEndTeam team(config_, queue);
-  Progress progress;
   {
+    Progress progress;
     const CTimeLoggerEntry timing(timer, "run");
     FrontEndThread front_end(source, team, queue, interrupted_);
     tbb::task_arena arena(job_.threads);
@@ -138,7 +138,6 @@ std::string SlamRun::run() {
     });
     front_end.join();
   }
-  progress.clear();
 
   RunResult result{config_, robots, base_station, team.reports(), source.warnings(), interrupted_};
   if (base_station.graph().nodes().empty())
@@ -146,7 +145,11 @@ std::string SlamRun::run() {
   warn(result.input_warnings);
   for (const FrontEndReport& report : result.reports)
     warn(report.warnings, "robot '" + robots.name(report.robot) + "': ");
-  writeRun(folder, result, timer);
+  {
+    Progress progress;
+    writeRun(folder, result, timer,
+             [&](double share, const std::string& step) { progress.show(share, step); });
+  }
   writeTimings(folder, timer, job_.threads);
   return describeRun(folder, result);
 }

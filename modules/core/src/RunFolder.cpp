@@ -18,12 +18,21 @@ RunFolder RunFolder::create(const std::string& root) {
       throw std::runtime_error("--out '" + root +
                                "' holds files already: name a new folder, or empty it first");
   }
-  for (const char* sub : {"trajectories", "keyframes", "maps"})
-    if (!error) fs::create_directories(fs::path(root) / sub, error);
+  if (!error) fs::create_directories(root, error);
   if (!error && ::access(root.c_str(), W_OK) != 0)
     error = std::make_error_code(std::errc::permission_denied);
   if (error) throw std::runtime_error("--out '" + root + "' cannot be written: " + error.message());
   return RunFolder(root);
+}
+
+void RunFolder::createSubfolders() const {
+  for (const char* name : {"trajectories", "keyframes", "maps"}) {
+    std::error_code error;
+    fs::create_directories(fs::path(root_) / name, error);
+    if (error)
+      throw std::runtime_error("cannot make the folder '" + root_ + "/" + name +
+                               "': " + error.message());
+  }
 }
 
 std::string RunFolder::trajectory(const std::string& robot) const {

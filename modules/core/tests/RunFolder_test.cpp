@@ -19,7 +19,10 @@ using testing::HasSubstr;
 
 TEST(RunFolder, IsMadeWithItsParentsAndSubfolders) {
   const std::string root = freshFolder() + "/deep/run";
-  EXPECT_EQ(RunFolder::create(root).root(), root);
+  const RunFolder folder = RunFolder::create(root);
+  EXPECT_EQ(folder.root(), root);
+  EXPECT_TRUE(fs::is_empty(root)) << "an early failure must leave a folder that can be used again";
+  folder.createSubfolders();
   for (const char* sub : {"trajectories", "keyframes", "maps"})
     EXPECT_TRUE(fs::is_directory(fs::path(root) / sub)) << sub;
 }

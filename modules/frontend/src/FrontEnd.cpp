@@ -165,7 +165,6 @@ Matrix6d FrontEnd::motionCovariance(double stamp) {
 
 std::vector<std::string> FrontEnd::warnings() const {
   std::vector<std::string> result = odometry_->warnings();
-  if (counts_.scans == 0) result.push_back("there are no lidar scans");
   if (counts_.without_odometry > 0)
     result.push_back(std::to_string(counts_.without_odometry) + " of " +
                      std::to_string(counts_.scans) +

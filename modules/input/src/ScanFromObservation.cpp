@@ -65,8 +65,11 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
   auto returns = returnsOfAny(observation);
   if (!returns) return {};
   if (const auto* laser = dynamic_cast<const CObservation2DRangeScan*>(&observation);
-      laser && options.laser_aperture_deg > 0)
-    returns = returnsOf(*laser, options.laser_aperture_deg * M_PI / 180.0);
+      laser && options.laser_aperture_deg > 0) {
+    CObservation2DRangeScan corrected = *laser;
+    corrected.aperture = static_cast<float>(options.laser_aperture_deg * M_PI / 180.0);
+    returns = returnsOf(corrected);
+  }
   mrpt::poses::CPose3D sensor_pose;
   observation.getSensorPose(sensor_pose);
   const Pose3 base_T_sensor = poseFromMrpt(sensor_pose);

@@ -75,17 +75,12 @@ SensorReturns returnsOf(const mrpt::obs::CObservation3DRangeScan& observation) {
 }
 
 SensorReturns returnsOf(const mrpt::obs::CObservation2DRangeScan& observation) {
-  return returnsOf(observation, observation.aperture);
-}
-
-SensorReturns returnsOf(const mrpt::obs::CObservation2DRangeScan& observation, double aperture) {
-  const float stretch = static_cast<float>(aperture / observation.aperture);
   SensorReturns returns;
   for (size_t i = 0; i < observation.getScanSize(); ++i) {
     const float range = observation.getScanRange(i);
     // Many drivers write the maximum range for "no return" and forget the flag.
     if (!observation.getScanRangeValidity(i) || range >= observation.maxRange) continue;
-    const float angle = stretch * observation.getScanAngle(i);
+    const float angle = observation.getScanAngle(i);
     returns.points.emplace_back(range * std::cos(angle), range * std::sin(angle), 0.0f);
     if (observation.hasIntensity()) {
       returns.intensity.push_back(static_cast<float>(observation.getScanIntensity(i)));

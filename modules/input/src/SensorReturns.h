@@ -24,7 +24,5 @@ SensorReturns returnsOf(const mrpt::obs::CObservationVelodyneScan& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservationRotatingScan& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservation3DRangeScan& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservation2DRangeScan& observation);
-/** With another field of view (radians) than the recorded one. */
-SensorReturns returnsOf(const mrpt::obs::CObservation2DRangeScan& observation, double aperture);
 
 }  // namespace lamp

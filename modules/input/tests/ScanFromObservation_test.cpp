@@ -111,6 +111,20 @@ TEST(ScanFromObservation, LaserInvalidAndMaximumRangesAreDropped) {
   EXPECT_EQ(scan->intensity, (std::vector<float>{20, 40}));
 }
 
+TEST(ScanFromObservation, AWrongApertureCanBeCorrected) {
+  auto o = laser(3, 2);
+  ScanOptions options;
+  options.laser_aperture_deg = 180;
+  for (const float recorded : {0.0f, static_cast<float>(M_PI / 2)}) {
+    o.aperture = recorded;
+    const auto scan = scanFromObservation(o, "laser", options);
+    ASSERT_EQ(scan->size(), 3u);
+    expectPoint(scan->points[0], 0, -2, 0);
+    expectPoint(scan->points[1], 2, 0, 0);
+    expectPoint(scan->points[2], 0, 2, 0);
+  }
+}
+
 TEST(ScanFromObservation, PlanarLaserIsLevel) {
   auto o = laser(3, 1);
   EXPECT_TRUE(isPlanarLaser(o));

@@ -3,6 +3,7 @@
 #include <mrpt/system/COutputLogger.h>
 #include <mrpt/system/CTimeLogger.h>
 
+#include <atomic>
 #include <map>
 #include <unordered_map>
 #include <vector>
@@ -31,8 +32,8 @@ class BaseStation : public mrpt::system::COutputLogger {
 
   void receive(const KeyframePacket& packet);
   void receive(const RobotEnd& end);
-  /** Computes what still waits, unless `interrupted`, and optimises a last time. */
-  void finish(bool interrupted);
+  /** Computes what still waits, until `interrupted`, and optimises a last time. */
+  void finish(const std::atomic<bool>& interrupted);
 
   const PoseGraph& graph() const { return graph_; }
   const Ledger& ledger() const { return ledger_; }

@@ -2,6 +2,7 @@
 
 #include <mrpt/system/CTimeLogger.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,12 @@ struct RunResult {
   bool interrupted = false;
 };
 
+/** Called before each long step with the share of the writing that is done and what comes. */
+using WriteProgress = std::function<void(double share, const std::string& step)>;
+
 /** Writes all files of docs/run-folder.md but timings.json, which comes last. */
-void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer);
+void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer,
+              const WriteProgress& progress);
 
 /** Seconds per stage, peak memory and threads; the one file that differs from run to run. */
 void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer, int threads);

@@ -67,8 +67,9 @@ struct Stages {
 class SlamConfig {
  public:
   /** Loads plugins, makes the stages and reads all options.
+   *  \param faults that reading the ini has found.
    *  \throws ConfigError with all faults at once; std::runtime_error if a file cannot be read. */
-  explicit SlamConfig(Ini ini);
+  explicit SlamConfig(Ini ini, Faults faults = {});
   /** Reads the file and applies `section.key=value` overrides. */
   static SlamConfig fromFile(const std::string& path, const std::vector<std::string>& overrides);
 

@@ -12,6 +12,9 @@ class RunFolder {
   /** Makes the folder for a new run. \throws std::runtime_error if it holds anything already, or
    *  cannot be written. */
   static RunFolder create(const std::string& root);
+  /** Makes the subfolders. Not before there is something to write: a run that fails early leaves an
+   * empty folder, which the next attempt may use. */
+  void createSubfolders() const;
 
   const std::string& root() const { return root_; }
   std::string config() const { return root_ + "/config.ini"; }

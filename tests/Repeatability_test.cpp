@@ -1,0 +1,120 @@
+// Same input, same bytes; and what a run leaves that is stopped.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "Experiment.h"
+
+namespace lamp::test {
+namespace {
+
+using testing::HasSubstr;
+
+SyntheticRobot robot(const std::string& name, const std::vector<Eigen::Vector2d>& route) {
+  SyntheticRobot result;
+  result.name = name;
+  result.route = route;
+  return result;
+}
+
+void expectSameFiles(const FinishedRun& one, const FinishedRun& two) {
+  const auto files_of_one = one.files(), files_of_two = two.files();
+  ASSERT_EQ(files_of_one.size(), files_of_two.size());
+  for (const auto& [name, content] : files_of_one) {
+    const auto found = files_of_two.find(name);
+    ASSERT_NE(found, files_of_two.end()) << name;
+    EXPECT_TRUE(found->second == content) << name << " differs";
+  }
+}
+
+/** A run of two robots with maps of all kinds, on one thread. */
+class Repeatability : public testing::Test {
+ protected:
+  Repeatability() {
+    const BoxWorld world = BoxWorld::building(7);
+    const Recording a = robot("A", {{3, 3}, {17, 3}, {17, 8}}).record3d(world);
+    const Recording b = robot("B", {{17, 8}, {17, 3}, {8, 3}}).record3d(world);
+    const std::string starts =
+        startSection("A", a.truth.front().pose) + startSection("B", b.truth.front().pose);
+    arguments_ = {experiment_.file("two.ini", iniFor3d("Ply, Pcd, OctoMap, Picture", starts)),
+                  experiment_.rawlog("A.rawlog", a.objects),
+                  experiment_.rawlog("B.rawlog", b.objects)};
+    const LampResult end = run("one", {"--threads", "1"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    const auto loops = experiment_.result("one").summary()["loops"];
+    EXPECT_GE(loops["inliers"], 5) << "registration, on several threads, must matter";
+  }
+
+  LampResult run(const std::string& name, const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = arguments_;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return experiment_.run(arguments, name);
+  }
+
+  Experiment experiment_;
+  std::vector<std::string> arguments_;
+};
+
+TEST_F(Repeatability, TwoThreadsGiveTheSameBytes) {
+  const LampResult end = run("two", {"--threads", "2"});
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  expectSameFiles(experiment_.result("one"), experiment_.result("two"));
+}
+
+TEST_F(Repeatability, ConfigOfARunGivesTheSameBytes) {
+  const LampResult end = experiment_.run({experiment_.path("one/config.ini")}, "again");
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  expectSameFiles(experiment_.result("one"), experiment_.result("again"));
+}
+
+/** An ini that keeps the program busy for long. */
+std::string slowIni() {
+  return iniFor3d("Ply, Pcd, OctoMap, Picture", R"(
+[lamp::AdaptiveRadius]
+min_index_gap = 1
+min_radius_m = 20
+max_per_robot = 400
+)");
+}
+
+/** Waits until the program has made its folder, and a little more. */
+bool waitUntilBusy(LampProcess& process, const FinishedRun& run) {
+  while (process.isRunning() && !run.has("maps"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  return process.isRunning();
+}
+
+TEST(Interrupt, LeavesACompleteRunFolder) {
+  const Experiment experiment;
+  SyntheticRobot long_way = robot("A", ringRoute());
+  for (int lap = 0; lap < 2; ++lap)
+    for (const Eigen::Vector2d& point : ringRoute()) long_way.route.push_back(point);
+  const Recording recording = long_way.record3d(BoxWorld::building(7));
+  LampProcess process({experiment.file("slow.ini", slowIni()),
+                       experiment.rawlog("A.rawlog", recording.objects), "--threads", "1", "--set",
+                       "frontend.key_node_distance_m=0.3", "--out", experiment.path("run")});
+  const FinishedRun run = experiment.result();
+  ASSERT_TRUE(waitUntilBusy(process, run)) << process.wait().err;
+  process.interrupt();
+  const LampResult end = process.wait();
+
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("interrupted"));
+  EXPECT_EQ(run.summary()["interrupted"], true);
+  const size_t poses = run.trajectory("A").size();
+  EXPECT_GT(poses, 0u);
+  EXPECT_LT(poses, recording.truth.size());
+  for (const char* file :
+       {"config.ini", "trajectories/A.tum", "trajectories/A.keyframes.tum",
+        "trajectories/A.odometry.tum", "graph.g2o", "graph.graph", "graph_ids.csv", "loops.csv",
+        "verdicts.csv", "keyframes/A.rawlog", "maps/map.ply", "maps/map.pcd", "maps/map.bt",
+        "maps/map.ot", "maps/map.png", "summary.json", "timings.json"})
+    EXPECT_TRUE(run.has(file)) << file;
+  EXPECT_EQ(run.files().size(), 16u) << "and nothing temporary beside them";
+}
+
+}  // namespace
+}  // namespace lamp::test
