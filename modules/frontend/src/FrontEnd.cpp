@@ -9,6 +9,8 @@ namespace {
 
 /** Scans wait for the odometry that follows them; if none comes, memory must not grow. */
 constexpr size_t kMaxWaitingScans = 200;
+/** Behind the last odometry reading a robot is taken to stand still, but not for longer. */
+constexpr double kMaxExtrapolationS = 0.5;
 
 void append(const Scan& scan, const Pose3& target_T_scan, Scan& target) {
   const auto first_sensor = static_cast<uint8_t>(target.sensors.size());
@@ -85,7 +87,7 @@ std::vector<KeyframePacket> FrontEnd::processCoveredScans() {
 std::vector<KeyframePacket> FrontEnd::finish() {
   std::vector<KeyframePacket> packets;
   for (const WaitingScan& waiting : waiting_) {
-    if (odometry_->empty())
+    if (!odometry_->covers(waiting.stamp - kMaxExtrapolationS))
       ++counts_.without_odometry;
     else if (auto packet = processScan(waiting))
       packets.push_back(std::move(*packet));
