@@ -172,7 +172,7 @@ TEST_F(BadInput, NoOdometry) {
 TEST_F(BadInput, NoScans) {
   const LampResult end = run(without<CObservationPointCloud>(good_));
   EXPECT_EQ(end.exit_code, kFailed);
-  EXPECT_THAT(end.err, AllOf(HasSubstr("robot 'A'"), HasSubstr("there are no lidar scans")));
+  EXPECT_THAT(end.err, AllOf(HasSubstr("robot 'A'"), HasSubstr("no lidar scan")));
   expectNothingWritten();
 }
 

@@ -79,12 +79,12 @@ max_per_robot = 400
 )");
 }
 
-/** Waits until the program has made its folder, and a little more. */
+/** Waits until the program has made its folder, half a minute at most, and a little more. */
 bool waitUntilBusy(LampProcess& process, const FinishedRun& run) {
-  while (process.isRunning() && !run.has("maps"))
+  for (int i = 0; i < 1500 && process.isRunning() && !run.has(""); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   std::this_thread::sleep_for(std::chrono::seconds(1));
-  return process.isRunning();
+  return process.isRunning() && run.has("");
 }
 
 TEST(Interrupt, LeavesACompleteRunFolder) {

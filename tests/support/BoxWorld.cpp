@@ -105,6 +105,12 @@ double BoxWorld::range(const Eigen::Vector3d& origin, const Eigen::Vector3d& dir
   return nearest;
 }
 
+bool BoxWorld::isInside(const Eigen::Vector3d& point) const {
+  return std::any_of(boxes_.begin(), boxes_.end(), [&](const Box& box) {
+    return (box.min - point).cwiseMax(point - box.max).maxCoeff() < 0;
+  });
+}
+
 double BoxWorld::distanceToSurface(const Eigen::Vector3d& point) const {
   double nearest = kInfinity;
   for (const Box& box : boxes_) nearest = std::min(nearest, distanceToBoundary(box, point));

@@ -21,7 +21,8 @@ class BoxWorld {
   void add(const Box& box) { boxes_.push_back(box); }
   /** Distance along the unit vector `direction` to the first surface; infinity if there is none. */
   double range(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
-  /** Distance to the nearest surface, for points outside all boxes. */
+  bool isInside(const Eigen::Vector3d& point) const;
+  /** Distance to the nearest surface, from outside or from inside a box. */
   double distanceToSurface(const Eigen::Vector3d& point) const;
 
  private:

@@ -107,7 +107,6 @@ std::optional<KeyframePacket> FrontEnd::processScan(const WaitingScan& waiting) 
 
   if (isKeyNode(odom_T_base)) {
     Scan scan = voxel_filter_.filter(mergedScan(waiting, odom_T_base));
-    planar_lidar_ = planar_lidar_ && isPlanarLaser(*waiting.observation.observation);
     if (!scan.points.empty()) return makePacket(waiting.stamp, odom_T_base, std::move(scan));
     ++counts_.empty_scans;
   }
@@ -133,11 +132,12 @@ Scan FrontEnd::mergedScan(const WaitingScan& waiting, const Pose3& odom_T_base) 
 
 void FrontEnd::appendScan(const InputObservation& observation, const Pose3& base_T_scan,
                           Scan& merged) {
+  planar_lidar_ = planar_lidar_ && isPlanarLaser(*observation.observation);
   try {
     const auto scan =
         scanFromObservation(*observation.observation, observation.label, options_.scan);
     if (scan) append(*scan, base_T_scan, merged);
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {  // MRPT throws logic errors for missing files
     if (counts_.unreadable_scans++ == 0) first_unreadable_ = error.what();
   }
 }

@@ -16,8 +16,6 @@ void RecordedOdometry::observe(const InputObservation& observation) {
     return;
   }
   planar_ = planar_ && reading->planar;
-  if (!readings_.empty() && reading->covariance && readings_.back().covariance)
-    constant_covariance_ = *reading->covariance == *readings_.back().covariance;
   readings_.push_back(*reading);
 }
 
@@ -50,7 +48,10 @@ std::optional<Matrix6d> RecordedOdometry::covarianceBetween(double begin, double
         *last->covariance - composeCovariance(*first->covariance, motion, Matrix6d::Zero());
     const Matrix6d symmetric = 0.5 * (growth + growth.transpose());
     const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric, Eigen::EigenvaluesOnly);
-    if (eigen.eigenvalues().minCoeff() > 0) result = symmetric;
+    if (eigen.eigenvalues().minCoeff() > 0)
+      result = symmetric;
+    else
+      ++ignored_covariances_;
   }
   forgetBefore(begin);
   return result;
@@ -62,10 +63,12 @@ void RecordedOdometry::forgetBefore(double stamp) {
 
 std::vector<std::string> RecordedOdometry::warnings() const {
   std::vector<std::string> result;
-  if (constant_covariance_)
+  if (ignored_covariances_ > 0)
     result.push_back(
-        "the odometry's covariance is constant on absolute poses: it is ignored, the motion model "
-        "of [frontend] is used");
+        "the recorded covariance of the odometry does not grow with the motion: it is "
+        "ignored for " +
+        std::to_string(ignored_covariances_) +
+        " odometry edges, which use the motion model of [frontend]");
   if (out_of_order_ > 0)
     result.push_back(std::to_string(out_of_order_) +
                      " odometry readings were dropped: their stamps do not increase");

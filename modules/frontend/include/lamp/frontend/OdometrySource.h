@@ -18,8 +18,6 @@ class OdometrySource : public Stage {
   virtual void observe(const InputObservation& observation) = 0;
   /** True once poses up to `stamp` (seconds, UTC) are final. */
   virtual bool covers(double stamp) const = 0;
-  /** True if anything is known at all. */
-  virtual bool empty() const = 0;
   /** `odom_T_base`, interpolated between the neighbouring readings and held beyond the ends.
    * Readings older than the last stamp asked for may be forgotten. */
   virtual Pose3 poseAt(double stamp) = 0;

@@ -21,7 +21,6 @@ class RecordedOdometry : public OdometrySource {
   void visit(OptionVisitor&) override {}
   void observe(const InputObservation& observation) override;
   bool covers(double stamp) const override;
-  bool empty() const override { return readings_.empty(); }
   Pose3 poseAt(double stamp) override;
   std::optional<Matrix6d> covarianceBetween(double begin, double end) override;
   bool planar() const override { return planar_; }
@@ -34,7 +33,7 @@ class RecordedOdometry : public OdometrySource {
 
   std::deque<OdometryReading> readings_;
   bool planar_ = true;
-  bool constant_covariance_ = false;
+  size_t ignored_covariances_ = 0;
   size_t out_of_order_ = 0;
 };
 

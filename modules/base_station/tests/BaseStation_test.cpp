@@ -1,0 +1,315 @@
+#include "lamp/base_station/BaseStation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <set>
+
+#include "TestTeam.h"
+#include "lamp/core/GraphFiles.h"
+
+namespace lamp {
+
+/** Proposes at key node k the pairs 0 - k for some k, and 0 - 2 again and again. */
+class ScriptedCandidates : public CandidateGenerator {
+  DEFINE_MRPT_OBJECT(ScriptedCandidates, lamp)
+ public:
+  void visit(OptionVisitor&) override {}
+  std::vector<LoopClosureCandidate> propose(const PoseGraph&, KeyframeId current) const override {
+    std::vector<LoopClosureCandidate> candidates;
+    const auto add = [&](uint32_t to) {
+      candidates.push_back({{current.robot, 0}, {current.robot, to}, "Scripted", 0});
+    };
+    if (current.index == 6 || current.index == 11) add(current.index);
+    if (current.index >= 2) add(2);
+    return candidates;
+  }
+};
+
+/** Knows one answer, for sources of 12 points: 16 m ahead. */
+class OneAnswer : public Refiner {
+  DEFINE_MRPT_OBJECT(OneAnswer, lamp)
+ public:
+  void visit(OptionVisitor&) override {}
+  RegistrationResult refine(const PreparedScan& source, const PreparedScan&,
+                            const Hypothesis& hypothesis) const override {
+    RegistrationResult result;
+    result.target_T_source = hypothesis.target_T_source;
+    if (source.size() != 12) return result;
+    result.converged = true;
+    result.target_T_source = planarPose(16, 0, 0);
+    result.covariance = 1e-6 * Matrix6d::Identity();
+    return result;
+  }
+};
+
+}  // namespace lamp
+
+IMPLEMENTS_MRPT_OBJECT(ScriptedCandidates, lamp::CandidateGenerator, lamp)
+IMPLEMENTS_MRPT_OBJECT(OneAnswer, lamp::Refiner, lamp)
+
+namespace lamp {
+namespace {
+
+using namespace test;
+
+size_t loopsBetween(const PoseGraph& graph) {
+  return static_cast<size_t>(
+      std::count_if(graph.edges().begin(), graph.edges().end(), [](const Edge& edge) {
+        return edge.type == EdgeType::kLoopClosure && edge.betweenRobots();
+      }));
+}
+
+/** Largest distance of an inlier loop from the truth, metres. */
+double worstInlier(const BaseStation& base, const Team& team) {
+  double worst = 0;
+  for (const Edge& edge : base.graph().edges()) {
+    if (edge.type != EdgeType::kLoopClosure || edge.verdict != Verdict::kInlier) continue;
+    const auto truth = [&](KeyframeId id) {
+      return team.drives[id.robot.value].truth[id.index].pose;
+    };
+    const Pose3 error = edge.from_T_to.inverse() * truth(edge.from).inverse() * truth(edge.to);
+    worst = std::max(worst, error.translation().norm());
+  }
+  return worst;
+}
+
+class TeamOfTwo : public testing::TestWithParam<bool> {
+ protected:
+  const Team team{GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(Dimensions, TeamOfTwo, testing::Values(true, false),
+                         [](const auto& dimension) {
+                           return dimension.param ? "Planar" : "Spatial";
+                         });
+
+TEST_P(TeamOfTwo, ClosesLoopsAndComesNearerToTheTruthThanOdometry) {
+  Station station(teamIni());
+  team.sendTo(station.base);
+  const BaseStation& base = station.base;
+  EXPECT_EQ(base.graph().components().size(), 1u);
+  EXPECT_GE(loopsBetween(base.graph()), 10u);
+  EXPECT_LT(worstInlier(base, team), 0.15);
+  for (const RobotId robot : {kA, kB}) {
+    const RobotDrive& driven = team.drives[robot.value];
+    const double before = rmse(driven.all_scans, base.odometryTrajectory(robot));
+    const double after = rmse(driven.truth, base.keyframeTrajectory(robot));
+    EXPECT_GT(before, 0.5) << "the drift must be worth correcting";
+    EXPECT_LT(after, 0.25) << "robot " << robot.value << ", odometry " << before;
+    EXPECT_LT(rmse(driven.all_scans, base.trajectory(robot)), 0.3);
+  }
+}
+
+TEST(BaseStation, TrajectoriesHaveOnePoseAScanAndPassThroughTheKeyNodes) {
+  const Team team;
+  Station station(teamIni());
+  team.sendTo(station.base);
+  for (const RobotId robot : {kA, kB}) {
+    const RobotDrive& driven = team.drives[robot.value];
+    const auto trajectory = station.base.trajectory(robot);
+    ASSERT_EQ(trajectory.size(), driven.all_scans.size());
+    size_t next_key = 0;
+    const auto key_nodes = station.base.keyframeTrajectory(robot);
+    for (size_t i = 0; i < trajectory.size(); ++i) {
+      EXPECT_EQ(trajectory[i].stamp, driven.all_scans[i].stamp);
+      if (next_key == key_nodes.size() || trajectory[i].stamp != key_nodes[next_key].stamp)
+        continue;
+      EXPECT_EQ(trajectory[i].pose.matrix(), key_nodes[next_key].pose.matrix());
+      ++next_key;
+    }
+    EXPECT_EQ(next_key, key_nodes.size());
+    for (size_t i = 1; i < trajectory.size(); ++i) {
+      const auto step = trajectory[i].pose.translation() - trajectory[i - 1].pose.translation();
+      EXPECT_LT(step.norm(), 0.6) << "steps of 0.5 m must not jump, at " << i;
+    }
+  }
+}
+
+TEST(BaseStation, OdometryTrajectoryStartsAtTheStartPose) {
+  const Team team;
+  Station station(teamIni());
+  team.sendTo(station.base);
+  const auto& first = team.drives[kB.value].packets.front();
+  EXPECT_LT((station.base.odometryTrajectory(kB).front().pose.matrix() -
+             first.prior->world_T_base.matrix())
+                .norm(),
+            1e-9);
+}
+
+TEST(BaseStation, WithoutInterRobotLoopsThereAreNone) {
+  const Team team;
+  Station station(teamIni("inter_robot_loops = false\n"));
+  team.sendTo(station.base);
+  EXPECT_EQ(loopsBetween(station.base.graph()), 0u);
+  EXPECT_GT(station.base.ledger().rows().size(), 0u);
+  for (const LedgerRow& row : station.base.ledger().rows())
+    EXPECT_EQ(row.candidate.from.robot, row.candidate.to.robot);
+  EXPECT_EQ(station.base.graph().components().size(), 2u);
+}
+
+TEST(BaseStation, RobotsWithoutAStartPoseAreNotCompared) {
+  const Team strangers(true, false);
+  Station station(teamIni());
+  strangers.sendTo(station.base);
+  EXPECT_EQ(loopsBetween(station.base.graph()), 0u);
+  EXPECT_EQ(station.base.graph().components().size(), 2u);
+  // Each one's map is in the frame of its own first key node.
+  for (const RobotId robot : {kA, kB}) {
+    const Pose3 start = station.base.keyframeTrajectory(robot).front().pose;
+    EXPECT_LT((start.matrix() - Pose3::Identity().matrix()).norm(), 1e-6);
+  }
+}
+
+TEST(BaseStation, WithoutGeneratorsOdometryIsTheMap) {
+  const Team team;
+  Station station("[pipeline]\ncandidates =\nexporters =\n");
+  team.sendTo(station.base);
+  EXPECT_EQ(station.base.candidates(), 0u);
+  EXPECT_EQ(station.base.optimizations(), 0u);
+  const auto odometry = station.base.odometryTrajectory(kA), map = station.base.trajectory(kA);
+  ASSERT_EQ(odometry.size(), map.size());
+  for (size_t i = 0; i < map.size(); ++i)
+    EXPECT_LT((odometry[i].pose.matrix() - map[i].pose.matrix()).norm(), 1e-9);
+}
+
+TEST(BaseStation, ResultsDoNotDependOnTheNumberOfThreads) {
+  const Team team;
+  RobotTable robots;
+  robots.add("A");
+  robots.add("B");
+  const auto resultWith = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<size_t>(threads));
+    Station station(teamIni());
+    tbb::task_arena(threads).execute([&] { team.sendTo(station.base); });
+    return toG2o(station.base.graph()) +
+           station.base.ledger().loops(station.base.graph(), robots).text() +
+           station.base.ledger().verdicts().text();
+  };
+  const std::string with_one = resultWith(1);
+  EXPECT_THAT(with_one, testing::HasSubstr("inlier"));
+  EXPECT_EQ(with_one, resultWith(2));
+}
+
+using Pairs = std::set<std::pair<KeyframeId, KeyframeId>>;
+
+Pairs pairs(const BaseStation& base) {
+  Pairs result;
+  for (const LedgerRow& row : base.ledger().rows())
+    result.insert({row.candidate.from, row.candidate.to});
+  return result;
+}
+
+/** A refiner that refuses everything leaves the poses, so that all candidates are known. */
+SlamConfig refusingConfig(const std::string& base_station) {
+  SlamConfig config = configFrom(teamIni("", base_station));
+  config.stages.refiner = std::make_shared<OneAnswer>();
+  return config;
+}
+
+TEST(BaseStation, FinishDrainsTheQueue) {
+  const Team team;
+  Station all(refusingConfig("closures_per_round = 0\n"));
+  team.sendTo(all.base);
+  Station one(refusingConfig("closures_per_round = 1\n"));
+  team.send(one.base);
+  const size_t before = one.base.ledger().rows().size();
+  EXPECT_LE(before, one.base.graph().nodes().size()) << "one for each key node at most";
+  const std::atomic<bool> interrupted{false};
+  one.base.finish(interrupted);
+  EXPECT_GT(one.base.ledger().rows().size(), before);
+  EXPECT_EQ(one.base.ledger().rows().size(), one.base.candidates());
+  EXPECT_EQ(pairs(one.base), pairs(all.base));
+  EXPECT_GT(pairs(all.base).size(), 50u);
+}
+
+TEST(BaseStation, FinishStopsWhenInterrupted) {
+  const Team team;
+  Station station(refusingConfig("closures_per_round = 1\n"));
+  team.send(station.base);
+  const size_t before = station.base.ledger().rows().size();
+  const std::atomic<bool> interrupted{true};
+  station.base.finish(interrupted);
+  EXPECT_EQ(station.base.ledger().rows().size(), before);
+}
+
+TEST(BaseStation, FinishOptimizesWhatIsLeft) {
+  const Team team;
+  Station station(teamIni("", "optimize_min_loops = 100000\n"));
+  team.send(station.base);
+  EXPECT_EQ(station.base.optimizations(), 0u);
+  const std::atomic<bool> interrupted{true};
+  station.base.finish(interrupted);
+  EXPECT_EQ(station.base.optimizations(), 1u) << "an interrupted run gives a map, too";
+  for (const Edge& edge : station.base.graph().edges()) EXPECT_NE(edge.verdict, Verdict::kPending);
+}
+
+TEST(BaseStation, SurvivesFinishWithoutAnything) {
+  Station station(teamIni());
+  const std::atomic<bool> interrupted{false};
+  station.base.finish(interrupted);
+  EXPECT_TRUE(station.base.graph().nodes().empty());
+  EXPECT_TRUE(station.base.trajectory(kA).empty());
+}
+
+/** Twelve key nodes, 2 m apart; the scan of key node k has k + 1 points. The loop 0 - 11 says 16 m
+ * where odometry says 22 m, so that key node k moves back by about k * 6/11 m. */
+class RetryTest : public testing::Test {
+ protected:
+  std::vector<const LedgerRow*> attemptsAfter(const std::string& options, uint32_t to) {
+    SlamConfig config = configFrom("[pipeline]\noptimizer = Lm\nverifiers =\nexporters =\n" +
+                                   ("[base_station]\noptimize_min_loops = 1\n" + options));
+    config.stages.candidates = {std::make_shared<ScriptedCandidates>()};
+    config.stages.refiner = std::make_shared<OneAnswer>();
+    station_ = std::make_unique<Station>(std::move(config));
+    for (uint32_t k = 0; k < 12; ++k) station_->base.receive(packet(k));
+    const std::atomic<bool> interrupted{false};
+    station_->base.finish(interrupted);
+    return station_->base.ledger().attempts({kA, 0}, {kA, to});
+  }
+
+  static KeyframePacket packet(uint32_t k) {
+    auto scan = std::make_shared<Scan>();
+    scan->points.resize(k + 1, Eigen::Vector3f::Ones());
+    scan->sensor.resize(k + 1, 0);
+    scan->sensors.push_back({"lidar", Eigen::Vector3d::Zero()});
+    KeyframePacket packet;
+    packet.id = {kA, k};
+    packet.stamp = k;
+    packet.odom_T_base = planarPose(2.0 * k, 0, 0);
+    packet.scan = scan;
+    if (k > 0) packet.odometry = OdometryEdge{planarPose(2, 0, 0), 0.01 * Matrix6d::Identity()};
+    return packet;
+  }
+
+  std::unique_ptr<Station> station_;
+};
+
+TEST_F(RetryTest, ARefusedPairIsTriedAgainOnlyWhenItsGuessMoved) {
+  const std::string options = "repropose_distance_m = 0.5\nretry_distance_m = 2\n";
+  const auto far = attemptsAfter(options, 6);
+  EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[11].pose.translation().x(), 16, 0.01);
+  ASSERT_EQ(far.size(), 2u);
+  EXPECT_NEAR(far[0]->guess.target_T_source.translation().x(), 12, 1e-9);
+  EXPECT_NEAR(far[1]->guess.target_T_source.translation().x(), 12 - 6 * 6.0 / 11, 0.01);
+  EXPECT_EQ(far[0]->loop_id, far[1]->loop_id);
+  EXPECT_EQ(far[1]->attempt, 2);
+  EXPECT_EQ(far[1]->outcome.reason, "did not converge");
+  EXPECT_EQ(attemptsAfter(options, 2).size(), 1u)
+      << "proposed ten times, but its guess moved by 1.1 m only";
+  EXPECT_EQ(attemptsAfter(options, 11).size(), 1u) << "accepted: nothing to try again";
+}
+
+TEST_F(RetryTest, ThresholdAndNumberOfAttemptsAreOptions) {
+  EXPECT_EQ(attemptsAfter("repropose_distance_m = 0.5\nretry_distance_m = 1\n", 2).size(), 2u);
+  EXPECT_EQ(attemptsAfter("repropose_distance_m = 0.5\nretry_distance_m = 1\nmax_attempts = 1\n", 6)
+                .size(),
+            1u);
+  EXPECT_EQ(attemptsAfter("repropose_distance_m = 100\nretry_distance_m = 1\n", 6).size(), 1u)
+      << "never proposed again";
+}
+
+}  // namespace
+}  // namespace lamp

@@ -1,0 +1,337 @@
+#include "lamp/frontend/FrontEnd.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "TestObservations.h"
+#include "lamp/frontend/RecordedOdometry.h"
+
+namespace lamp {
+namespace {
+
+using namespace test;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/** A front end, and all that it gave. */
+class Drive {
+ public:
+  explicit Drive(const FrontEndOptions& options = {}, std::optional<StartPrior> prior = {})
+      : front_end(kRobot, options, std::make_shared<RecordedOdometry>(), std::move(prior)) {}
+
+  void observe(const InputObservation& observation) { keep(front_end.observe(observation)); }
+  void finish() {
+    keep(front_end.finish());
+    end = front_end.end();
+  }
+
+  /** Stamps of all scans that are told of, in the order of telling. */
+  std::vector<double> stamps() const {
+    std::vector<double> result;
+    for (const KeyframePacket& packet : packets) {
+      for (const StampedPose& scan : packet.passed_scans) result.push_back(scan.stamp);
+      result.push_back(packet.stamp);
+    }
+    for (const StampedPose& scan : end.passed_scans) result.push_back(scan.stamp);
+    return result;
+  }
+
+  FrontEnd front_end;
+  std::vector<KeyframePacket> packets;
+  RobotEnd end;
+
+ private:
+  void keep(std::vector<KeyframePacket> more) {
+    for (KeyframePacket& packet : more) packets.push_back(std::move(packet));
+  }
+};
+
+/** A straight drive with scans every 0.3 m and odometry between them. */
+void driveStraight(Drive& drive, int scans) {
+  for (int i = 0; i < scans; ++i) {
+    drive.observe(wheels(kStart + i - 0.5, 0.3 * (i - 0.5)));
+    drive.observe(cloud(kStart + i, somePoints()));
+  }
+  drive.observe(wheels(kStart + scans, 0.3 * scans));
+  drive.finish();
+}
+
+TEST(FrontEnd, MakesKeyNodesEveryTwoMetres) {
+  StartPrior prior;
+  prior.world_T_base = planarPose(5, 6, 0.7);
+  Drive drive({}, prior);
+  driveStraight(drive, 24);
+  ASSERT_EQ(drive.packets.size(), 4u);
+  for (uint32_t k = 0; k < 4; ++k) {
+    const KeyframePacket& packet = drive.packets[k];
+    EXPECT_EQ(packet.id, (KeyframeId{kRobot, k}));
+    EXPECT_NEAR(packet.stamp, kStart + 7 * k, 1e-6) << "2.1 m are the first 0.3 m beyond 2 m";
+    EXPECT_NEAR(packet.odom_T_base.translation().x(), 2.1 * k, 1e-6);
+    EXPECT_EQ(packet.scan->size(), somePoints().size());
+    EXPECT_EQ(packet.odometry.has_value(), k > 0);
+    EXPECT_EQ(packet.prior.has_value(), k == 0);
+    if (k == 0) continue;
+    EXPECT_LT((packet.odometry->previous_T_this.matrix() - planarPose(2.1, 0, 0).matrix()).norm(),
+              1e-6);
+  }
+  EXPECT_EQ(drive.packets[0].prior->world_T_base.matrix(), prior.world_T_base.matrix());
+  EXPECT_EQ(drive.front_end.counts().scans, 24u);
+  EXPECT_EQ(drive.front_end.counts().key_nodes, 4u);
+  EXPECT_THAT(drive.front_end.warnings(), IsEmpty());
+}
+
+TEST(FrontEnd, MakesKeyNodesEveryThirtyDegrees) {
+  Drive drive;
+  for (int i = 0; i <= 20; ++i) {
+    drive.observe(wheels(kStart + i, 0, 0, 7 * kDegree * i));
+    drive.observe(cloud(kStart + i, somePoints()));
+  }
+  drive.finish();
+  ASSERT_EQ(drive.packets.size(), 5u);
+  for (size_t k = 0; k < 5; ++k)
+    EXPECT_NEAR(yawOf(drive.packets[k].odom_T_base), 35 * kDegree * static_cast<double>(k), 1e-6);
+}
+
+TEST(FrontEnd, TellsOfEveryScanOnce) {
+  Drive drive;
+  driveStraight(drive, 24);
+  std::vector<double> expected;
+  for (int i = 0; i < 24; ++i) expected.push_back(kStart + i);
+  EXPECT_EQ(drive.stamps(), expected);
+  EXPECT_EQ(drive.end.robot, kRobot);
+  EXPECT_EQ(drive.end.passed_scans.size(), 2u);
+  for (const StampedPose& scan : drive.packets[2].passed_scans)
+    EXPECT_NEAR(scan.pose.translation().x(), 0.3 * (scan.stamp - kStart), 1e-6);
+}
+
+TEST(FrontEnd, ScansWaitForOdometry) {
+  Drive drive;
+  drive.observe(wheels(kStart, 0));
+  drive.observe(cloud(kStart + 0.75, somePoints()));
+  EXPECT_THAT(drive.packets, IsEmpty());
+  drive.observe(wheels(kStart + 0.5, 1));
+  EXPECT_THAT(drive.packets, IsEmpty());
+  drive.observe(wheels(kStart + 1, 2));
+  ASSERT_EQ(drive.packets.size(), 1u);
+  EXPECT_NEAR(drive.packets[0].odom_T_base.translation().x(), 1.5, 1e-6);
+}
+
+TEST(FrontEnd, ScansJustAfterTheLastOdometryStandWhereItEnded) {
+  Drive drive;
+  drive.observe(wheels(kStart, 0));
+  drive.observe(wheels(kStart + 1, 5));
+  for (const double t : {0.0, 1.0, 1.2, 60.0}) drive.observe(cloud(kStart + t, somePoints()));
+  drive.finish();
+  EXPECT_EQ(drive.packets.size(), 2u);
+  ASSERT_EQ(drive.end.passed_scans.size(), 1u);
+  EXPECT_NEAR(drive.end.passed_scans[0].stamp, kStart + 1.2, 1e-6);
+  EXPECT_NEAR(drive.end.passed_scans[0].pose.translation().x(), 5, 1e-6);
+  EXPECT_EQ(drive.front_end.counts().without_odometry, 1u) << "nobody knows where it was by then";
+  EXPECT_THAT(drive.front_end.warnings(), ElementsAre(HasSubstr("1 of 4 scans were dropped")));
+}
+
+TEST(FrontEnd, WithoutOdometryThereIsAWarningAndMemoryStaysBounded) {
+  Drive drive;
+  std::vector<std::weak_ptr<mrpt::obs::CObservation>> scans;
+  for (int i = 0; i < 1000; ++i) {
+    const InputObservation scan = cloud(kStart + i, somePoints());
+    scans.push_back(scan.observation);
+    drive.observe(scan);
+  }
+  size_t alive = 0;
+  for (const auto& scan : scans) alive += scan.expired() ? 0 : 1;
+  EXPECT_LE(alive, 250u);
+  drive.finish();
+  EXPECT_THAT(drive.packets, IsEmpty());
+  EXPECT_THAT(drive.end.passed_scans, IsEmpty());
+  EXPECT_EQ(drive.front_end.counts().without_odometry, 1000u);
+  EXPECT_THAT(drive.front_end.warnings(),
+              ElementsAre(HasSubstr("1000 of 1000 scans were dropped")));
+}
+
+TEST(FrontEnd, AnEmptyScanBecomesNoKeyNode) {
+  Drive drive;
+  for (int i = 0; i < 3; ++i) {
+    drive.observe(wheels(kStart + i, 0));
+    drive.observe(cloud(kStart + i, i == 0 ? std::vector<Eigen::Vector3f>{} : somePoints()));
+  }
+  drive.finish();
+  ASSERT_EQ(drive.packets.size(), 1u);
+  EXPECT_NEAR(drive.packets[0].stamp, kStart + 1, 1e-6);
+  EXPECT_EQ(drive.packets[0].passed_scans.size(), 1u);
+  EXPECT_EQ(drive.stamps().size(), 3u);
+  EXPECT_EQ(drive.front_end.counts().empty_scans, 1u);
+  EXPECT_THAT(drive.front_end.warnings(), ElementsAre(HasSubstr("1 scans had no usable point")));
+}
+
+/** One scan that cannot be used, and a good one. */
+void expectUnreadable(const mrpt::obs::CObservation::Ptr& scan, const std::string& reason) {
+  Drive drive;
+  drive.observe(wheels(kStart, 0));
+  drive.observe(wrapped(kStart, "lidar", scan));
+  drive.observe(wheels(kStart + 1, 0));
+  drive.observe(cloud(kStart + 1, somePoints()));
+  drive.finish();
+  EXPECT_EQ(drive.packets.size(), 1u);
+  EXPECT_EQ(drive.stamps().size(), 2u);
+  EXPECT_EQ(drive.front_end.counts().unreadable_scans, 1u);
+  EXPECT_THAT(drive.front_end.warnings(), Contains(HasSubstr(reason)));
+}
+
+TEST(FrontEnd, SurvivesScansThatCannotBeRead) {
+  using mrpt::obs::CObservationPointCloud;
+  auto lost = CObservationPointCloud::Create();
+  lost->setAsExternalStorage("/nowhere/lost.bin",
+                             CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
+  expectUnreadable(lost, "lost.bin");
+
+  auto unknown = mrpt::obs::CObservationRotatingScan::Create();
+  unknown->rowCount = 4;
+  unknown->columnCount = 8;
+  unknown->rangeImage.resize(4, 8);
+  expectUnreadable(unknown, "1 scans could not be read");
+}
+
+TEST(FrontEnd, KeyedScansComeNearTheTargetSize) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  std::vector<Eigen::Vector3f> hall;  // the floor and two walls, far more points than wanted
+  for (int i = 0; i < 40000; ++i) {
+    const float u = unit(random), v = unit(random);
+    hall.push_back(i % 2 ? Eigen::Vector3f(30 * u - 15, 20 * v - 10, -0.5f)
+                         : Eigen::Vector3f(30 * u - 15, i % 4 ? 10.0f : -10.0f, 4 * v));
+  }
+  FrontEndOptions options;
+  options.voxel.target_points = 1200;
+  Drive drive(options);
+  for (int i = 0; i < 3; ++i) {
+    drive.observe(wheels(kStart + i, 3.0 * i));
+    drive.observe(cloud(kStart + i, hall));
+  }
+  ASSERT_EQ(drive.packets.size(), 3u);
+  for (const KeyframePacket& packet : drive.packets)
+    EXPECT_NEAR(static_cast<double>(packet.scan->size()), 1200, 180);
+}
+
+/** Two lidars; the second one scans `gap` seconds before the first one. The robot drives 1 m/s. */
+Scan scanOfTwoLidars(double gap) {
+  Drive drive;
+  for (int i = 0; i < 30; ++i) drive.observe(wheels(kStart - 2 + 0.1 * i, 0.1 * i));
+  // The first observation of all says which lidar is the reference.
+  drive.observe(cloud(kStart - 1.9, {{4, 0, 0}}, "front", {0.3, 0, 0.5}));
+  drive.observe(cloud(kStart + 0.5 - gap, {{-6, 1, 0}}, "rear", {-0.4, 0, 0.6}));
+  drive.observe(cloud(kStart + 0.5, {{4, 0, 0}, {0, 7, 1}}, "front", {0.3, 0, 0.5}));
+  drive.finish();
+  EXPECT_EQ(drive.packets.size(), 2u);
+  EXPECT_EQ(drive.front_end.counts().scans, 2u) << "scans of the reference lidar";
+  return *drive.packets.back().scan;
+}
+
+TEST(FrontEnd, MergesLidarsWithinTheWindow) {
+  const Scan scan = scanOfTwoLidars(0.15);
+  ASSERT_EQ(scan.size(), 3u);
+  ASSERT_EQ(scan.sensors.size(), 2u);
+  EXPECT_EQ(scan.sensors[0].label, "front");
+  EXPECT_TRUE(scan.sensors[0].position.isApprox(Eigen::Vector3d(0.3, 0, 0.5), 1e-6));
+  // In 0.15 s the robot has driven on by 0.15 m.
+  EXPECT_EQ(scan.sensors[1].label, "rear");
+  EXPECT_TRUE(scan.sensors[1].position.isApprox(Eigen::Vector3d(-0.55, 0, 0.6), 1e-5))
+      << scan.sensors[1].position.transpose();
+  EXPECT_EQ(scan.sensor, (std::vector<uint8_t>{0, 0, 1}));
+  EXPECT_TRUE(scan.points[0].isApprox(Eigen::Vector3f(4.3f, 0, 0.5f), 1e-5f));
+  EXPECT_TRUE(scan.points[2].isApprox(Eigen::Vector3f(-6.55f, 1, 0.6f), 1e-5f))
+      << scan.points[2].transpose();
+}
+
+TEST(FrontEnd, DoesNotMergeOlderScans) {
+  const Scan scan = scanOfTwoLidars(0.25);
+  EXPECT_EQ(scan.size(), 2u);
+  EXPECT_EQ(scan.sensors.size(), 1u);
+}
+
+TEST(FrontEnd, OdometryEdgesAreLessCertainAfterALongerWay) {
+  const auto edge = [](double sway) {
+    Drive drive;
+    for (int i = 0; i <= 7; ++i) {
+      drive.observe(wheels(kStart + i, 0.3 * i, 0, i % 2 ? sway : -sway));
+      drive.observe(cloud(kStart + i, somePoints()));
+    }
+    drive.finish();
+    EXPECT_EQ(drive.packets.size(), 2u);
+    return drive.packets.back().odometry->covariance;
+  };
+  const MotionModelOptions model;
+  const Matrix6d straight = edge(0), swaying = edge(0.2);
+  EXPECT_TRUE(isCovariance(straight));
+  EXPECT_NEAR(std::sqrt(straight(0, 0)), std::hypot(model.min_sigma_m, 2.1 * model.sigma_m_per_m),
+              1e-9);
+  EXPECT_NEAR(std::sqrt(straight(5, 5)),
+              std::hypot(model.min_sigma_rad, 2.1 * model.sigma_rad_per_m), 1e-9);
+  EXPECT_NEAR(std::sqrt(swaying(5, 5)),
+              std::hypot(model.min_sigma_rad, 2.1 * model.sigma_rad_per_m,
+                         7 * 0.4 * model.sigma_rad_per_rad),
+              1e-9);
+}
+
+TEST(FrontEnd, TheWayStartsAnewAtEachKeyNode) {
+  Drive drive;
+  driveStraight(drive, 30);
+  ASSERT_GE(drive.packets.size(), 3u);
+  EXPECT_LT((drive.packets[1].odometry->covariance - drive.packets[2].odometry->covariance).norm(),
+            1e-9);
+}
+
+TEST(FrontEnd, UsesTheRecordedCovarianceWhereItGrows) {
+  const Matrix6d step = 1e-3 * Matrix6d::Identity();
+  const Pose3 motion = planarPose(0.7, 0, 0.05);
+  Drive drive;
+  Pose3 pose = Pose3::Identity();
+  Matrix6d covariance = 1e-6 * Matrix6d::Identity(), expected = Matrix6d::Zero();
+  for (int i = 0; i <= 3; ++i) {
+    drive.observe(robotPose(kStart + i, pose, covariance));
+    drive.observe(cloud(kStart + i, somePoints()));
+    pose = pose * motion;
+    covariance = composeCovariance(covariance, motion, step);
+    if (i < 3) expected = composeCovariance(expected, motion, step);
+  }
+  ASSERT_EQ(drive.packets.size(), 2u);
+  EXPECT_LT((drive.packets[1].odometry->covariance - expected).norm(), 1e-5 * expected.norm());
+}
+
+/** Whether key nodes are planar that were seen with these sensors. */
+bool planarWith(const std::vector<InputObservation>& observations) {
+  Drive drive;
+  for (const InputObservation& observation : observations) drive.observe(observation);
+  drive.finish();
+  EXPECT_EQ(drive.packets.size(), 1u);
+  return drive.packets.at(0).planar;
+}
+
+TEST(FrontEnd, IsPlanarWithALevelLaserAndWheelsOnly) {
+  EXPECT_TRUE(planarWith({wheels(kStart, 0), laser(kStart)}));
+  EXPECT_TRUE(planarWith({wheels(kStart, 0), laser(kStart, 1)}));
+  EXPECT_FALSE(planarWith({wheels(kStart, 0), laser(kStart, 10)})) << "a tilted laser";
+  EXPECT_FALSE(planarWith({robotPose(kStart, Pose3::Identity()), laser(kStart)}));
+  EXPECT_FALSE(planarWith({wheels(kStart, 0), cloud(kStart, somePoints())}));
+}
+
+TEST(FrontEnd, IsNotPlanarIfAnotherLidarSeesMore) {
+  Drive drive;
+  for (int i = 0; i < 2; ++i) {
+    drive.observe(wheels(kStart + i, 3.0 * i));
+    drive.observe(laser(kStart + i));
+    drive.observe(wheels(kStart + i + 0.85, 3.0 * i + 2.5));
+    drive.observe(cloud(kStart + i + 0.9, somePoints()));
+  }
+  drive.finish();
+  ASSERT_EQ(drive.packets.size(), 2u);
+  ASSERT_EQ(drive.packets[1].scan->sensors.size(), 2u);
+  EXPECT_FALSE(drive.packets[1].planar);
+}
+
+}  // namespace
+}  // namespace lamp
