@@ -32,6 +32,8 @@ endfunction()
 function(lamp_add_test target label)
   add_executable(${target} ${ARGN})
   target_link_libraries(${target} PRIVATE GTest::gtest GTest::gmock GTest::gtest_main lamp_warnings)
+  # What is tested is optimised; the tests themselves would only take longer to compile.
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${target} PRIVATE
     LAMP_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LAMP_BINARY_DIR="${PROJECT_BINARY_DIR}")
   include(GoogleTest)

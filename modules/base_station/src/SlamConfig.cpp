@@ -148,6 +148,9 @@ void SlamConfig::readRobots(Faults& faults) {
     RobotOptions robot;
     robot.name = section.name.substr(kRobotPrefix.size());
     readOptions(&section, robot, faults);
+    if (robot.key.size() > 1)
+      faults.add(section.find("key")->where,
+                 "[" + section.name + "] key = " + robot.key + ": must be one letter");
     try {
       names.add(robot.name, robot.key.empty() ? '\0' : robot.key.front());
     } catch (const std::runtime_error& error) {
