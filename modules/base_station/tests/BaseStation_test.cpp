@@ -7,6 +7,7 @@
 
 #include <set>
 
+#include "Summary.h"
 #include "TestTeam.h"
 #include "lamp/core/GraphFiles.h"
 
@@ -40,9 +41,10 @@ class OneAnswer : public Refiner {
     if (source.size() != 12) return result;
     result.converged = true;
     result.target_T_source = planarPose(16, 0, 0);
-    result.covariance = 1e-6 * Matrix6d::Identity();
+    result.covariance = variance * Matrix6d::Identity();
     return result;
   }
+  double variance = 1e-6;
 };
 
 }  // namespace lamp
@@ -254,20 +256,34 @@ TEST(BaseStation, SurvivesFinishWithoutAnything) {
   EXPECT_TRUE(station.base.trajectory(kA).empty());
 }
 
-/** Twelve key nodes, 2 m apart; the scan of key node k has k + 1 points. The loop 0 - 11 says 16 m
- * where odometry says 22 m, so that key node k moves back by about k * 6/11 m. */
-class RetryTest : public testing::Test {
+/** Twelve key nodes, 2 m apart, with one scan between each two; the scan of key node k has k + 1
+ * points. The loop 0 - 11 says 16 m where odometry says 22 m, so that key node k moves back by
+ * about k * 6/11 m. */
+class ScriptedLoops : public testing::Test {
  protected:
-  std::vector<const LedgerRow*> attemptsAfter(const std::string& options, uint32_t to) {
-    SlamConfig config = configFrom("[pipeline]\noptimizer = Lm\nverifiers =\nexporters =\n" +
-                                   ("[base_station]\noptimize_min_loops = 1\n" + options));
+  void run(const std::string& options, const std::string& optimizer = "Lm",
+           double loop_variance = 1e-6) {
+    SlamConfig config = configFrom("[pipeline]\noptimizer = " + optimizer +
+                                   "\nverifiers =\nexporters =\n[base_station]\n" + options);
     config.stages.candidates = {std::make_shared<ScriptedCandidates>()};
-    config.stages.refiner = std::make_shared<OneAnswer>();
+    const auto refiner = std::make_shared<OneAnswer>();
+    refiner->variance = loop_variance;
+    config.stages.refiner = refiner;
     station_ = std::make_unique<Station>(std::move(config));
     for (uint32_t k = 0; k < 12; ++k) station_->base.receive(packet(k));
     const std::atomic<bool> interrupted{false};
     station_->base.finish(interrupted);
+  }
+
+  std::vector<const LedgerRow*> attempts(uint32_t to) const {
     return station_->base.ledger().attempts({kA, 0}, {kA, to});
+  }
+
+  /** One edge turns uncertainly, so that both directions of a relative pose differ. */
+  static Matrix6d edgeCovariance(uint32_t k) {
+    Vector6d variances;
+    variances << 0.01, 0.01, 0.01, 1e-4, 1e-4, k == 1 ? 1e-2 : 1e-4;
+    return variances.asDiagonal();
   }
 
   static KeyframePacket packet(uint32_t k) {
@@ -280,35 +296,78 @@ class RetryTest : public testing::Test {
     packet.stamp = k;
     packet.odom_T_base = planarPose(2.0 * k, 0, 0);
     packet.scan = scan;
-    if (k > 0) packet.odometry = OdometryEdge{planarPose(2, 0, 0), 0.01 * Matrix6d::Identity()};
+    if (k == 0) return packet;
+    packet.odometry = OdometryEdge{planarPose(2, 0, 0), edgeCovariance(k)};
+    packet.passed_scans = {{k - 0.5, planarPose(2.0 * k - 1, 0, 0)}};
     return packet;
   }
 
   std::unique_ptr<Station> station_;
 };
 
-TEST_F(RetryTest, ARefusedPairIsTriedAgainOnlyWhenItsGuessMoved) {
-  const std::string options = "repropose_distance_m = 0.5\nretry_distance_m = 2\n";
-  const auto far = attemptsAfter(options, 6);
+const char* const kRetryFrom2m =
+    "optimize_min_loops = 1\nrepropose_distance_m = 0.5\nretry_distance_m = 2\n";
+const char* const kRetryFrom1m =
+    "optimize_min_loops = 1\nrepropose_distance_m = 0.5\nretry_distance_m = 1\n";
+
+TEST_F(ScriptedLoops, ARefusedPairIsTriedAgainOnlyWhenItsGuessMoved) {
+  run(kRetryFrom2m);
   EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[11].pose.translation().x(), 16, 0.01);
+  const auto far = attempts(6);
   ASSERT_EQ(far.size(), 2u);
   EXPECT_NEAR(far[0]->guess.target_T_source.translation().x(), 12, 1e-9);
   EXPECT_NEAR(far[1]->guess.target_T_source.translation().x(), 12 - 6 * 6.0 / 11, 0.01);
   EXPECT_EQ(far[0]->loop_id, far[1]->loop_id);
   EXPECT_EQ(far[1]->attempt, 2);
   EXPECT_EQ(far[1]->outcome.reason, "did not converge");
-  EXPECT_EQ(attemptsAfter(options, 2).size(), 1u)
-      << "proposed ten times, but its guess moved by 1.1 m only";
-  EXPECT_EQ(attemptsAfter(options, 11).size(), 1u) << "accepted: nothing to try again";
+  EXPECT_EQ(attempts(2).size(), 1u) << "proposed ten times, but its guess moved by 1.1 m only";
+  EXPECT_EQ(attempts(11).size(), 1u) << "accepted: nothing to try again";
 }
 
-TEST_F(RetryTest, ThresholdAndNumberOfAttemptsAreOptions) {
-  EXPECT_EQ(attemptsAfter("repropose_distance_m = 0.5\nretry_distance_m = 1\n", 2).size(), 2u);
-  EXPECT_EQ(attemptsAfter("repropose_distance_m = 0.5\nretry_distance_m = 1\nmax_attempts = 1\n", 6)
-                .size(),
-            1u);
-  EXPECT_EQ(attemptsAfter("repropose_distance_m = 100\nretry_distance_m = 1\n", 6).size(), 1u)
-      << "never proposed again";
+TEST_F(ScriptedLoops, ThresholdAndNumberOfAttemptsAreOptions) {
+  run(kRetryFrom1m);
+  EXPECT_EQ(attempts(2).size(), 2u);
+  run(kRetryFrom1m + std::string("max_attempts = 1\n"));
+  EXPECT_EQ(attempts(6).size(), 1u);
+  run("optimize_min_loops = 1\nrepropose_distance_m = 100\nretry_distance_m = 1\n");
+  EXPECT_EQ(attempts(6).size(), 1u) << "never proposed again";
+}
+
+TEST_F(ScriptedLoops, FinishTriesWhatItsOwnOptimizationBroughtNear) {
+  run("optimize_min_loops = 100\nrepropose_distance_m = 0.5\nretry_distance_m = 2\n");
+  EXPECT_EQ(station_->base.optimizations(), 1u);
+  EXPECT_EQ(attempts(6).size(), 2u);
+}
+
+TEST_F(ScriptedLoops, ScansBetweenKeyNodesShareTheirCorrection) {
+  run(kRetryFrom2m);
+  const auto trajectory = station_->base.trajectory(kA);
+  ASSERT_EQ(trajectory.size(), 23u);
+  for (size_t i = 0; i < trajectory.size(); ++i) {
+    const double odometry = static_cast<double>(i);  // 1 m a scan
+    EXPECT_NEAR(trajectory[i].pose.translation().x(), odometry * 16 / 22, 0.01) << i;
+  }
+}
+
+TEST_F(ScriptedLoops, GuessesCarryTheCovarianceOfTheOdometryBetweenThem) {
+  run(kRetryFrom2m);
+  Matrix6d expected = Matrix6d::Zero();
+  for (uint32_t k = 1; k <= 6; ++k)
+    expected = composeCovariance(expected, planarPose(2, 0, 0), edgeCovariance(k));
+  EXPECT_GT(expected(1, 1), 1.0) << "the uncertain turn swings the far end";
+  const auto& guess = attempts(6).at(0)->guess;
+  ASSERT_TRUE(guess.covariance);
+  EXPECT_LT((*guess.covariance - expected).norm(), 1e-6 * expected.norm()) << *guess.covariance;
+}
+
+TEST_F(ScriptedLoops, ARejectedLoopIsVerifiedButNoInlier) {
+  run(kRetryFrom2m, "Gnc", 0.1);
+  const LoopCounts counts = countLoops(station_->base);
+  EXPECT_EQ(counts.verified, 1u);
+  EXPECT_EQ(counts.inliers, 0u) << "6 m off, and neither it nor odometry is that uncertain";
+  const PoseGraph& graph = station_->base.graph();
+  EXPECT_EQ(countLoops(graph, graph.components().at(0)).within_robots, 0u);
+  EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[11].pose.translation().x(), 22, 0.01);
 }
 
 }  // namespace
