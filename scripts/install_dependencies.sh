@@ -14,7 +14,7 @@ packages=(
   mrpt-common # the recording that demo.sh runs
 )
 # PCL and OctoMap's tools read our files back in the tests.
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev octomap-tools)
+test_packages=(libgtest-dev libgmock-dev libpcl-dev octomap-tools)
 
 case "${1:-}" in
   "") packages+=("${test_packages[@]}") ;;
