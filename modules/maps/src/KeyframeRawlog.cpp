@@ -1,20 +1,17 @@
 #include "lamp/maps/KeyframeRawlog.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "GzFile.h"
 #include "MapPoints.h"
-#include "lamp/core/Files.h"
+#include "lamp/core/RawlogFile.h"
 
 namespace lamp {
 
@@ -77,26 +74,18 @@ mrpt::obs::CObservationPointCloud cloudOf(const KeyframePacket& packet, uint8_t 
   return cloud;
 }
 
-void writeObject(const mrpt::serialization::CSerializable& object, GzFile& file) {
-  mrpt::io::CMemoryStream memory;
-  mrpt::serialization::archiveFrom(memory) << object;
-  file.write(memory.getRawBufferData(), memory.getTotalBytesCount());
-}
-
 }  // namespace
 
 void writeKeyframeRawlog(const std::string& path, const std::string& robot,
                          const std::vector<KeyframePacket>& packets) {
   for (const KeyframePacket& packet : packets) checkPacket(packet, robot);
-  writeAtomically(path, [&](const std::string& temporary) {
-    GzFile file(temporary, path);
+  writeRawlog(path, [&](const RawlogSink& sink) {
     for (const KeyframePacket* packet : inStampOrder(packets)) {
-      writeObject(odometryOf(*packet, robot), file);
+      sink(odometryOf(*packet, robot));
       if (!packet->scan) continue;
       for (size_t sensor = 0; sensor < packet->scan->sensors.size(); ++sensor)
-        writeObject(cloudOf(*packet, static_cast<uint8_t>(sensor), robot), file);
+        sink(cloudOf(*packet, static_cast<uint8_t>(sensor), robot));
     }
-    file.close();
   });
 }
 
