@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "lamp/base_station/SlamRun.h"
-#include "lamp/base_station/Version.h"
+#include "lamp/core/Version.h"
 
 namespace lamp {
 

@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "FrontEndTeam.h"
-#include "Progress.h"
 #include "lamp/base_station/BaseStation.h"
 #include "lamp/base_station/RunWriter.h"
+#include "lamp/core/Progress.h"
 #include "lamp/input/RawlogSource.h"
 #include "lamp/transport/InProcessQueue.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "lamp/base_station/Version.h"
+#include "lamp/core/Version.h"
 
 namespace lamp {
 

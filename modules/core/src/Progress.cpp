@@ -1,4 +1,4 @@
-#include "Progress.h"
+#include "lamp/core/Progress.h"
 
 #include <unistd.h>
 
