@@ -7,6 +7,7 @@
 #include "MarkdownTable.h"
 #include "ReportJson.h"
 #include "lamp/core/Files.h"
+#include "lamp/core/Progress.h"
 #include "lamp/core/Version.h"
 
 namespace lamp {
@@ -75,7 +76,10 @@ std::vector<std::string> runNames(const std::vector<std::string>& runs) {
 
 EvaluationInput inputOf(const Arguments& arguments) {
   EvaluationInput input;
-  if (!arguments.truth.empty()) input.truth.emplace(arguments.truth);
+  if (!arguments.truth.empty()) {
+    input.truth.emplace(arguments.truth);
+    input.world = TrueWorld::open(*input.truth);
+  }
   input.relations = arguments.relations;
   input.scan_stamps = arguments.stamps;
   input.alignment = alignmentFromText(arguments.align);
@@ -88,9 +92,16 @@ int run(const Arguments& arguments) {
       arguments.out.empty() ? arguments.runs.front() + "/evaluation" : arguments.out;
   const auto names = runNames(arguments.runs);
   std::vector<RunEvaluation> runs;
-  for (size_t i = 0; i < names.size(); ++i) {
-    runs.push_back(evaluateRun(arguments.runs[i], input));
-    runs.back().name = names[i];
+  {
+    Progress progress;
+    for (size_t i = 0; i < names.size(); ++i) {
+      const auto show = [&](double share, const std::string& part) {
+        progress.show((static_cast<double>(i) + share) / static_cast<double>(names.size()),
+                      names[i] + ": " + part);
+      };
+      runs.push_back(evaluateRun(arguments.runs[i], input, show));
+      runs.back().name = names[i];
+    }
   }
   const auto report = reportJson(runs, input);
   const std::string markdown = markdownReport(report), json = report.dump(2) + "\n";

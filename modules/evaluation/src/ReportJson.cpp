@@ -71,6 +71,65 @@ Json relationErrorsJson(const RelationErrors& errors) {
           {"without_pose", errors.without_pose}};
 }
 
+Json stageJson(const LoopScore& score, const StageScore& stage) {
+  return {{"accepted", stage.accepted},
+          {"right", stage.right},
+          {"wrong", stage.wrong},
+          {"neither", stage.neither},
+          {"not_judged", stage.not_judged},
+          {"true_pairs", stage.true_pairs},
+          {"false_pairs", stage.false_pairs},
+          {"between_pairs", stage.between_pairs},
+          {"unknown_pairs", stage.unknown_pairs},
+          {"precision", optionalNumber(LoopScore::precision(stage))},
+          {"recall", optionalNumber(score.recall(stage))},
+          {"recall_of_pairs", optionalNumber(score.recallOfPairs(stage))},
+          {"false_positives", optionalNumber(score.falsePositives(stage))}};
+}
+
+Json errorJson(const Statistics& error, const std::string& unit) {
+  if (error.count == 0) return nullptr;
+  return {
+      {"mean_" + unit, error.mean}, {"median_" + unit, error.median}, {"max_" + unit, error.max}};
+}
+
+Json loopScoreJson(const LoopScore& score) {
+  return {{"generated", stageJson(score, score.generated)},
+          {"verified", stageJson(score, score.verified)},
+          {"kept", stageJson(score, score.kept)},
+          {"kept_translation_error", errorJson(score.translation_m, "m")},
+          {"kept_rotation_error", errorJson(score.rotation_deg, "deg")}};
+}
+
+Json mapsJson(const std::vector<MapEvaluation>& maps) {
+  Json json;
+  for (const MapEvaluation& map : maps)
+    json[map.name] = {{"points", map.points.size()},
+                      {"accuracy_mean_m", map.accuracy_m.mean},
+                      {"accuracy_p95_m", map.accuracy_m.p95},
+                      {"accuracy_max_m", map.accuracy_m.max},
+                      {"completeness_share", map.completeness}};
+  return json;
+}
+
+/** The share that was marked as it should not be (or as it should), with the counts behind it. */
+Json countsJson(const char* measure, size_t part, const OctoMapCounts& counts) {
+  return {{measure, counts.total() > 0 ? Json(share(part, counts.total())) : Json(nullptr)},
+          {"places", counts.total()},
+          {"occupied", counts.occupied},
+          {"free", counts.free},
+          {"unknown", counts.unknown}};
+}
+
+Json octomapJson(const OctoMapEvaluation& e) {
+  return {{"resolution_m", e.resolution_m},
+          {"free_space_resolution_m", e.free_resolution_m},
+          {"surface", countsJson("marked_free_share", e.surface.free, e.surface)},
+          {"free_space", countsJson("marked_occupied_share", e.free_space.occupied, e.free_space)},
+          {"driven_floor", countsJson("known_share", e.driven_floor.occupied + e.driven_floor.free,
+                                      e.driven_floor)}};
+}
+
 Json runJson(const RunEvaluation& run) {
   Json json;
   json["name"] = run.name;
@@ -78,6 +137,12 @@ Json runJson(const RunEvaluation& run) {
   json["interrupted"] = run.run.interrupted;
   json["notes"] = run.notes;
   if (run.trajectories) json["trajectories"] = trajectoriesJson(*run.trajectories);
+  if (run.loops)
+    json["loops"] = {{"all", loopScoreJson(run.loops->all)},
+                     {"within_robots", loopScoreJson(run.loops->within_robots)},
+                     {"between_robots", loopScoreJson(run.loops->between_robots)}};
+  if (!run.maps.empty()) json["maps"] = mapsJson(run.maps);
+  if (run.octomap) json["octomap"] = octomapJson(*run.octomap);
   if (run.relations)
     json["relations"] = {{"result", relationErrorsJson(run.relations->result)},
                          {"odometry", relationErrorsJson(run.relations->odometry)}};

@@ -29,13 +29,21 @@ TrajectoryScore score(const JoinedTrajectory& joined, const Pose3& truth_T_estim
 /** Result and odometry of one robot, joined but not yet aligned. */
 struct JoinedRobot {
   RunFiles::Robot robot;
+  double mean_true_height_m = 0;
   JoinedTrajectory result, odometry;
 };
 
+double meanHeight(const std::vector<StampedPose>& poses) {
+  double sum = 0;
+  for (const StampedPose& pose : poses) sum += pose.pose.translation().z();
+  return sum / static_cast<double>(poses.size());
+}
+
 JoinedRobot join(const RunFiles& run, const RunFiles::Robot& robot, const TruthFolder& truth) {
-  const TrueTrajectory path(readTum(truth.trajectory(robot.name)), robot.planar);
-  JoinedRobot joined{
-      robot, joinInTime(readTum(run.folder.trajectory(robot.name)), path, robot.name), {}};
+  std::vector<StampedPose> true_poses = readTum(truth.trajectory(robot.name));
+  JoinedRobot joined{robot, meanHeight(true_poses), {}, {}};
+  const TrueTrajectory path(std::move(true_poses), robot.planar);
+  joined.result = joinInTime(readTum(run.folder.trajectory(robot.name)), path, robot.name);
   const std::string odometry = run.folder.odometryTrajectory(robot.name);
   if (std::filesystem::exists(odometry))
     joined.odometry = joinInTime(readTum(odometry), path, robot.name);
@@ -77,6 +85,7 @@ RobotEvaluation evaluate(const JoinedRobot& joined, const Pose3& truth_T_world,
   robot.name = joined.robot.name;
   robot.component = joined.robot.component;
   robot.planar = joined.robot.planar;
+  robot.mean_true_height_m = joined.mean_true_height_m;
   robot.poses = joined.result.poses;
   robot.odometry_poses = joined.odometry.poses;
   robot.truth_T_world = truth_T_world;

@@ -26,6 +26,7 @@ struct RobotEvaluation {
   std::vector<JoinedPose> poses, odometry_poses;
   Pose3 truth_T_world = Pose3::Identity();  ///< the alignment of the result
   Pose3 truth_T_odom = Pose3::Identity();   ///< the same kind of alignment, of the odometry
+  double mean_true_height_m = 0;            ///< z of the true positions, of planar robots too
   TrajectoryScore result, odometry;
 };
 
