@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "MarkdownTable.h"
+#include "Pictures.h"
 #include "ReportJson.h"
 #include "lamp/core/Files.h"
 #include "lamp/core/Progress.h"
@@ -86,29 +87,43 @@ EvaluationInput inputOf(const Arguments& arguments) {
   return input;
 }
 
+void writeErrorMaps(const std::vector<RunEvaluation>& runs, const std::string& out) {
+  for (size_t i = 0; i < runs.size(); ++i)
+    for (const MapEvaluation& map : runs[i].maps)
+      writeErrorPly(out + "/" + filePrefix(runs, i) + map.name + "_error.ply", map,
+                    errorScale(map));
+}
+
+std::vector<RunEvaluation> evaluateRuns(const Arguments& arguments, const EvaluationInput& input) {
+  const auto names = runNames(arguments.runs);
+  std::vector<RunEvaluation> runs;
+  Progress progress;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const auto show = [&](double share, const std::string& part) {
+      progress.show((static_cast<double>(i) + share) / static_cast<double>(names.size()),
+                    names[i] + ": " + part);
+    };
+    runs.push_back(evaluateRun(arguments.runs[i], input, show));
+    runs.back().name = names[i];
+  }
+  return runs;
+}
+
 int run(const Arguments& arguments) {
   const EvaluationInput input = inputOf(arguments);
   const std::string out =
       arguments.out.empty() ? arguments.runs.front() + "/evaluation" : arguments.out;
-  const auto names = runNames(arguments.runs);
-  std::vector<RunEvaluation> runs;
-  {
-    Progress progress;
-    for (size_t i = 0; i < names.size(); ++i) {
-      const auto show = [&](double share, const std::string& part) {
-        progress.show((static_cast<double>(i) + share) / static_cast<double>(names.size()),
-                      names[i] + ": " + part);
-      };
-      runs.push_back(evaluateRun(arguments.runs[i], input, show));
-      runs.back().name = names[i];
-    }
-  }
+  const auto runs = evaluateRuns(arguments, input);
   const auto report = reportJson(runs, input);
   const std::string markdown = markdownReport(report), json = report.dump(2) + "\n";
   std::filesystem::create_directories(out);
   writeTextFile(out + "/evaluation.md", markdown);
   writeTextFile(out + "/evaluation.json", json);
   if (!arguments.json.empty() && arguments.json != "-") writeTextFile(arguments.json, json);
+  writeErrorMaps(runs, out);
+  if (!arguments.no_pictures)
+    for (const std::string& warning : drawPictures(runs, out + "/plots"))
+      std::cerr << "lamp-eval: " << warning << "\n";
   std::cout << (arguments.json == "-" ? json : markdown);
   return kOk;
 }

@@ -159,8 +159,10 @@ void appendRelations(const Json& runs, std::string& text) {
 std::string tableRows(const Json& runs) {
   std::string text;
   appendRows(runs, "all robots", "/trajectories/all", kTrajectoryRows, text);
-  for (const std::string& robot : keysOf(runs, "/trajectories/robots"))
-    appendRows(runs, robot, "/trajectories/robots/" + robot, kTrajectoryRows, text);
+  const auto robots = keysOf(runs, "/trajectories/robots");
+  if (robots.size() > 1)
+    for (const std::string& robot : robots)
+      appendRows(runs, robot, "/trajectories/robots/" + robot, kTrajectoryRows, text);
   appendLoops(runs, text);
   for (const std::string& map : keysOf(runs, "/maps"))
     appendRows(runs, map, "/maps/" + map, kMapRows, text);
