@@ -27,13 +27,23 @@ void writeAtomically(const std::string& path,
   throw std::runtime_error("cannot write '" + path + "': " + error.message());
 }
 
-void writeTextFile(const std::string& path, const std::string& text) {
+void writeBinaryFile(const std::string& path, const std::function<void(std::ostream&)>& write) {
   writeAtomically(path, [&](const std::string& temporary) {
+    const auto check = [&path](const std::ofstream& file) {
+      if (file) return;
+      throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno) +
+                               "; check that its folder exists and has room");
+    };
     std::ofstream file(temporary, std::ios::binary);
-    file << text;
+    check(file);
+    write(file);
     file.close();
-    if (!file) throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
+    check(file);
   });
+}
+
+void writeTextFile(const std::string& path, const std::string& text) {
+  writeBinaryFile(path, [&](std::ostream& file) { file << text; });
 }
 
 std::string readTextFile(const std::string& path) {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <ostream>
 
-#include "BinaryFile.h"
 #include "MapPoints.h"
 #include "VoxelSet.h"
+#include "lamp/core/Files.h"
 
 namespace lamp {
 

@@ -1,8 +1,8 @@
 #include "lamp/maps/OctoMap.h"
 
-#include "BinaryFile.h"
 #include "MapPoints.h"
 #include "OctreeScanInserter.h"
+#include "lamp/core/Files.h"
 
 IMPLEMENTS_MRPT_OBJECT(OctoMap, lamp::MapExporter, lamp)
 

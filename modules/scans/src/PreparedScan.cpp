@@ -1,64 +1,17 @@
 #include "lamp/scans/PreparedScan.h"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
+#include "lamp/core/SurfaceNormals.h"
 
 namespace lamp {
 
-namespace {
-
-using Eigen::Matrix3f;
 using Eigen::Vector3f;
-
-constexpr size_t kMinNeighborsForNormal = 3;
-
-/** Scatter of the points around their mean. */
-Matrix3f scatter(const std::vector<Vector3f>& points, const std::vector<uint32_t>& indices) {
-  Vector3f mean = Vector3f::Zero();
-  for (const uint32_t i : indices) mean += points[i];
-  mean /= static_cast<float>(indices.size());
-  Matrix3f sum = Matrix3f::Zero();
-  for (const uint32_t i : indices) {
-    const Vector3f d = points[i] - mean;
-    sum.noalias() += d * d.transpose();
-  }
-  return sum;
-}
-
-/** Direction of least scatter; zero if the points do not span a surface. */
-Vector3f surfaceNormal(const Matrix3f& scatter) {
-  Eigen::SelfAdjointEigenSolver<Matrix3f> eigen;
-  eigen.computeDirect(scatter);
-  const Vector3f values = eigen.eigenvalues();
-  if (!(values[1] > 1e-3f * values[2])) return Vector3f::Zero();
-  return eigen.eigenvectors().col(0).normalized();
-}
-
-Vector3f lineNormal(const Matrix3f& scatter) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2f> eigen;
-  eigen.computeDirect(scatter.topLeftCorner<2, 2>());
-  const Eigen::Vector2f values = eigen.eigenvalues();
-  if (!(values[1] > 0.0f)) return Vector3f::Zero();
-  const Eigen::Vector2f normal = eigen.eigenvectors().col(0).normalized();
-  return {normal.x(), normal.y(), 0.0f};
-}
-
-}  // namespace
 
 PreparedScanPtr prepareScan(std::vector<Vector3f> points, int normal_neighbors, bool planar) {
   auto prepared = std::make_shared<PreparedScan>();
   prepared->points = std::move(points);
   prepared->planar = planar;
   prepared->tree = std::make_unique<KdTree>(prepared->points);
-  prepared->normals.assign(prepared->size(), Vector3f::Zero());
-  std::vector<uint32_t> neighbors;
-  for (size_t i = 0; i < prepared->size(); ++i) {
-    prepared->tree->nearest(prepared->points[i], static_cast<size_t>(normal_neighbors), neighbors);
-    if (neighbors.size() < kMinNeighborsForNormal) continue;
-    const Matrix3f spread = scatter(prepared->points, neighbors);
-    const Vector3f normal = planar ? lineNormal(spread) : surfaceNormal(spread);
-    if (normal.allFinite()) prepared->normals[i] = normal;
-  }
+  prepared->normals = surfaceNormals(prepared->points, *prepared->tree, normal_neighbors, planar);
   return prepared;
 }
 

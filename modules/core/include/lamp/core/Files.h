@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <ostream>
 #include <string>
 
 namespace lamp {
@@ -9,6 +10,10 @@ namespace lamp {
  * a killed run leaves no half file. \throws std::runtime_error naming the path; what `write` throws
  * goes through, and the temporary file is removed. */
 void writeAtomically(const std::string& path, const std::function<void(const std::string&)>& write);
+
+/** Lets `write` fill a new binary file with writeAtomically(). \throws std::runtime_error naming
+ * the path and the system's reason. */
+void writeBinaryFile(const std::string& path, const std::function<void(std::ostream&)>& write);
 
 /** Writes text with writeAtomically(). */
 void writeTextFile(const std::string& path, const std::string& text);

@@ -6,7 +6,7 @@
 
 #include "lamp/core/Geometry.h"
 #include "lamp/core/KeyedScan.h"
-#include "lamp/scans/KdTree.h"
+#include "lamp/core/KdTree.h"
 
 namespace lamp {
 

@@ -1,4 +1,4 @@
-#include "lamp/scans/KdTree.h"
+#include "lamp/core/KdTree.h"
 
 #include <nanoflann.hpp>
 
@@ -21,6 +21,27 @@ struct Adaptor {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Adaptor>,
                                                  Adaptor, 3, uint32_t>;
 constexpr size_t kLeafSize = 10;
+
+/** Ends the search at the first point with the property. */
+class FirstWithProperty {
+ public:
+  using DistanceType = float;  ///< nanoflann asks for this name
+  FirstWithProperty(float distance, const std::function<bool(size_t)>& property)
+      : squared_(distance * distance), property_(property) {}
+
+  bool addPoint(float squared_distance, uint32_t index) {
+    found_ = squared_distance < squared_ && property_(index);
+    return !found_;
+  }
+  float worstDist() const { return squared_; }
+  bool full() const { return true; }
+  bool found() const { return found_; }
+
+ private:
+  const float squared_;
+  const std::function<bool(size_t)>& property_;
+  bool found_ = false;
+};
 
 }  // namespace
 
@@ -58,6 +79,14 @@ void KdTree::nearest(const Eigen::Vector3f& query, size_t k, std::vector<uint32_
   thread_local std::vector<float> squared;
   squared.resize(k);
   indices.resize(index_->tree.knnSearch(query.data(), k, indices.data(), squared.data()));
+}
+
+bool KdTree::anyWithin(const Eigen::Vector3f& query, float distance,
+                       const std::function<bool(size_t)>& property) const {
+  if (!index_) return false;
+  FirstWithProperty result(distance, property);
+  index_->tree.findNeighbors(result, query.data(), {});
+  return result.found();
 }
 
 }  // namespace lamp

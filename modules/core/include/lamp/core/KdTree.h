@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -21,6 +22,9 @@ class KdTree {
   size_t nearest(const Eigen::Vector3f& query, float max_distance, float& squared_distance) const;
   /** Indices of the k nearest points, nearest first; fewer if there are fewer points. */
   void nearest(const Eigen::Vector3f& query, size_t k, std::vector<uint32_t>& indices) const;
+  /** Whether a point nearer than `distance` has the property. Stops at the first that has. */
+  bool anyWithin(const Eigen::Vector3f& query, float distance,
+                 const std::function<bool(size_t)>& property) const;
 
  private:
   struct Index;

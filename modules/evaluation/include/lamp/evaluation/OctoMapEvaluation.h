@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lamp/core/Geometry.h"
+#include "lamp/evaluation/TrueSurface.h"
+
+namespace lamp {
+
+/** How many of a set of places an octree calls occupied, free and unknown. */
+struct OctoMapCounts {
+  size_t occupied = 0, free = 0, unknown = 0;
+
+  size_t total() const { return occupied + free + unknown; }
+};
+
+/** An octree against the truth. */
+struct OctoMapEvaluation {
+  double resolution_m = 0;
+  double free_resolution_m = 0;  ///< of the voxels in which free space was found
+  OctoMapCounts surface;         ///< voxels of the octree with a seen sample
+  OctoMapCounts free_space;      ///< truly free voxels (see FreeSpace.h)
+  OctoMapCounts driven_floor;    ///< samples of the floor that the robots drove on
+  std::string no_free_space;     ///< why free space was not judged; empty if it was
+};
+
+/** \param tree path of a `.bt` or `.ot` file. \param truth_T_map the alignment.
+ *  \param positions of the robots' bases, true, world frame.
+ *  \throws std::runtime_error naming the file if it is no octree. */
+OctoMapEvaluation evaluateOctoMap(const std::string& tree, const Pose3& truth_T_map,
+                                  const SurfaceSamples& surface,
+                                  const std::vector<Eigen::Vector3f>& positions);
+
+}  // namespace lamp

@@ -1,0 +1,117 @@
+#include "lamp/evaluation/OctoMapEvaluation.h"
+
+#include <octomap/OcTree.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <unordered_set>
+
+#include "lamp/core/KdTree.h"
+#include "lamp/evaluation/FreeSpace.h"
+
+namespace lamp {
+
+namespace {
+
+constexpr double kWatertightVoxel = 0.2;  ///< metres; samples are 0.1 m apart
+
+std::unique_ptr<octomap::OcTree> readTree(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::unique_ptr<octomap::OcTree> tree;
+  if (std::filesystem::path(path).extension() == ".bt") {
+    tree = std::make_unique<octomap::OcTree>(kWatertightVoxel);
+    if (!file || !tree->readBinary(file)) tree.reset();
+  } else {
+    std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(file));
+    if (auto* found = dynamic_cast<octomap::OcTree*>(any.get())) {
+      any.release();
+      tree.reset(found);
+    }
+  }
+  if (!tree || tree->size() == 0)
+    throw std::runtime_error("'" + path + "' is no OctoMap, or an empty or damaged one");
+  return tree;
+}
+
+/** Asks the octree about places in the frame of the truth. */
+class Inquiry {
+ public:
+  Inquiry(const octomap::OcTree& tree, const Pose3& truth_T_map)
+      : tree_(tree), map_T_truth_(truth_T_map.inverse()) {}
+
+  octomap::point3d inMap(const Eigen::Vector3d& p) const {
+    const Eigen::Vector3f q = (map_T_truth_ * p).cast<float>();
+    return {q.x(), q.y(), q.z()};
+  }
+  void count(const octomap::point3d& p, OctoMapCounts& counts) const {
+    const octomap::OcTreeNode* node = tree_.search(p);
+    ++(!node ? counts.unknown : tree_.isNodeOccupied(node) ? counts.occupied : counts.free);
+  }
+  void count(const Eigen::Vector3d& p, OctoMapCounts& counts) const { count(inMap(p), counts); }
+
+ private:
+  const octomap::OcTree& tree_;
+  const Pose3 map_T_truth_;
+};
+
+/** Each voxel of the octree that holds a seen sample counts once. */
+OctoMapCounts surfaceVoxels(const octomap::OcTree& tree, const Inquiry& inquiry,
+                            const SurfaceSamples& surface) {
+  OctoMapCounts counts;
+  std::unordered_set<octomap::OcTreeKey, octomap::OcTreeKey::KeyHash> voxels;
+  for (size_t i = 0; i < surface.points.size(); ++i) {
+    if (!surface.seen[i]) continue;
+    const octomap::point3d p = inquiry.inMap(surface.points[i].cast<double>());
+    octomap::OcTreeKey key;
+    if (!tree.coordToKeyChecked(p, key) || !voxels.insert(key).second) continue;
+    inquiry.count(p, counts);
+  }
+  return counts;
+}
+
+/** Samples that face up, within 0.5 m beside a true position and at most 2 m below it. */
+OctoMapCounts drivenFloor(const Inquiry& inquiry, const SurfaceSamples& surface,
+                          const std::vector<Eigen::Vector3f>& positions) {
+  constexpr float kBeside = 0.5f, kBelow = 2.0f, kUpward = 0.5f;
+  constexpr float kAbove = 0.1f;  // a base on the ground may lie a little below its samples
+  std::vector<Eigen::Vector3f> on_plane = positions;
+  for (Eigen::Vector3f& p : on_plane) p.z() = 0;
+  const KdTree tree(on_plane);
+  OctoMapCounts counts;
+  for (size_t i = 0; i < surface.points.size(); ++i) {
+    const Eigen::Vector3f& p = surface.points[i];
+    if (!surface.seen[i] || surface.normals[i].z() <= kUpward) continue;
+    if (tree.anyWithin({p.x(), p.y(), 0}, kBeside, [&](size_t j) {
+          const float height = positions[j].z() - p.z();
+          return height >= -kAbove && height <= kBelow;
+        }))
+      inquiry.count(p.cast<double>(), counts);
+  }
+  return counts;
+}
+
+}  // namespace
+
+OctoMapEvaluation evaluateOctoMap(const std::string& path, const Pose3& truth_T_map,
+                                  const SurfaceSamples& surface,
+                                  const std::vector<Eigen::Vector3f>& positions) {
+  const auto tree = readTree(path);
+  const Inquiry inquiry(*tree, truth_T_map);
+  OctoMapEvaluation evaluation;
+  evaluation.resolution_m = tree->getResolution();
+  evaluation.free_resolution_m = std::max(kWatertightVoxel, evaluation.resolution_m);
+  evaluation.surface = surfaceVoxels(*tree, inquiry, surface);
+  evaluation.driven_floor = drivenFloor(inquiry, surface, positions);
+  try {
+    forEachFreeVoxel(surface, positions, evaluation.free_resolution_m,
+                     [&](const Eigen::Vector3d& p) { inquiry.count(p, evaluation.free_space); });
+  } catch (const std::runtime_error& error) {
+    evaluation.no_free_space = error.what();
+  }
+  return evaluation;
+}
+
+}  // namespace lamp

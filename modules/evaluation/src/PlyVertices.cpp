@@ -1,0 +1,144 @@
+#include "lamp/evaluation/PlyVertices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "lamp/core/Csv.h"
+
+namespace lamp {
+
+namespace {
+
+template <class T>
+double valueOf(const char* bytes) {
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return static_cast<double>(value);
+}
+
+/** How a scalar type is stored. PLY has an old and a new name for each. */
+struct Scalar {
+  size_t size;
+  double (*value)(const char*);
+};
+const std::map<std::string, Scalar> kScalars = {
+    {"char", {1, valueOf<int8_t>}},     {"int8", {1, valueOf<int8_t>}},
+    {"uchar", {1, valueOf<uint8_t>}},   {"uint8", {1, valueOf<uint8_t>}},
+    {"short", {2, valueOf<int16_t>}},   {"int16", {2, valueOf<int16_t>}},
+    {"ushort", {2, valueOf<uint16_t>}}, {"uint16", {2, valueOf<uint16_t>}},
+    {"int", {4, valueOf<int32_t>}},     {"int32", {4, valueOf<int32_t>}},
+    {"uint", {4, valueOf<uint32_t>}},   {"uint32", {4, valueOf<uint32_t>}},
+    {"float", {4, valueOf<float>}},     {"float32", {4, valueOf<float>}},
+    {"double", {8, valueOf<double>}},   {"float64", {8, valueOf<double>}}};
+
+}  // namespace
+
+PlyVertices::PlyVertices(const std::string& path) : path_(path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error("cannot read '" + path + "': there is no such file");
+  readHeader(file);
+  data_ = file.tellg();
+}
+
+void PlyVertices::readHeader(std::istream& file) {
+  std::string line, element;
+  if (!std::getline(file, line) || line.substr(0, 3) != "ply") fail("is no PLY file");
+  while (std::getline(file, line)) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line == "end_header") {
+      if (properties_.empty()) fail("has no vertices");
+      return;
+    }
+    takeHeaderLine(line, element);
+  }
+  fail("ends within its header");
+}
+
+void PlyVertices::takeHeaderLine(const std::string& line, std::string& element) {
+  std::istringstream words(line);
+  std::string keyword, first, second;
+  words >> keyword >> first >> second;
+  if (keyword == "format") {
+    binary_ = first == "binary_little_endian";
+    if (!binary_ && first != "ascii") fail("has the format '" + first + "', which is not read");
+  } else if (keyword == "element") {
+    if (first == "vertex") {
+      double count = 0;
+      if (!element.empty()) fail("has elements before its vertices");
+      if (!parseDouble(second, count) || count < 0) fail("has no number of vertices");
+      count_ = static_cast<size_t>(count);
+    }
+    element = first;
+  } else if (keyword == "property" && element == "vertex") {
+    addProperty(first, second);
+  }
+}
+
+void PlyVertices::addProperty(const std::string& type, const std::string& name) {
+  const auto scalar = kScalars.find(type);
+  if (scalar == kScalars.end()) fail("has vertices with a property of type '" + type + "'");
+  properties_.push_back({name, stride_, scalar->second.value});
+  stride_ += scalar->second.size;
+}
+
+bool PlyVertices::has(const std::string& property) const {
+  return std::any_of(properties_.begin(), properties_.end(),
+                     [&](const Property& p) { return p.name == property; });
+}
+
+std::vector<size_t> PlyVertices::placesOf(const std::vector<std::string>& properties) const {
+  std::vector<size_t> places;
+  for (const std::string& name : properties) {
+    const auto found = std::find_if(properties_.begin(), properties_.end(),
+                                    [&](const Property& p) { return p.name == name; });
+    if (found == properties_.end()) fail("has vertices without '" + name + "'");
+    places.push_back(static_cast<size_t>(found - properties_.begin()));
+  }
+  return places;
+}
+
+bool PlyVertices::readVertex(std::istream& file, std::vector<double>& values) const {
+  if (binary_) {
+    thread_local std::vector<char> bytes;
+    bytes.resize(stride_);
+    if (!file.read(bytes.data(), static_cast<std::streamsize>(stride_))) return false;
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = properties_[i].value(bytes.data() + properties_[i].offset);
+    return true;
+  }
+  std::string word;
+  for (double& value : values)
+    if (!(file >> word) || !parseDouble(word, value)) return false;
+  return true;
+}
+
+void PlyVertices::read(const std::vector<std::string>& properties,
+                       const std::function<void(const double*)>& take) const {
+  const std::vector<size_t> places = placesOf(properties);
+  std::ifstream file(path_, std::ios::binary);
+  file.seekg(data_);
+  std::vector<double> values(properties_.size()), taken(places.size());
+  for (size_t i = 0; i < count_; ++i) {
+    if (!readVertex(file, values))
+      fail("ends or is malformed at vertex " + std::to_string(i + 1) + " of " +
+           std::to_string(count_));
+    for (size_t k = 0; k < places.size(); ++k) {
+      taken[k] = values[places[k]];
+      if (!std::isfinite(taken[k]))
+        fail("has a value that is not finite in vertex " + std::to_string(i + 1));
+    }
+    take(taken.data());
+  }
+}
+
+void PlyVertices::fail(const std::string& what) const {
+  throw std::runtime_error("'" + path_ + "' " + what);
+}
+
+}  // namespace lamp

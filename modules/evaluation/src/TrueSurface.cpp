@@ -1,0 +1,40 @@
+#include "lamp/evaluation/TrueSurface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "lamp/evaluation/PlyVertices.h"
+
+namespace lamp {
+
+SurfaceSamples SurfaceSamples::fromPly(const std::string& path) {
+  const PlyVertices file(path);
+  std::vector<std::string> properties = {"x", "y", "z", "nx", "ny", "nz"};
+  const bool has_seen = file.has("seen");
+  if (has_seen) properties.push_back("seen");
+  SurfaceSamples samples;
+  file.read(properties, [&](const double* v) {
+    const Eigen::Vector3d normal(v[3], v[4], v[5]);
+    if (!(normal.norm() > 0.5)) throw std::runtime_error("'" + path + "' has a zero normal");
+    samples.points.push_back(Eigen::Vector3d(v[0], v[1], v[2]).cast<float>());
+    samples.normals.push_back(normal.normalized().cast<float>());
+    samples.seen.push_back(!has_seen || v[6] != 0);
+  });
+  if (std::count(samples.seen.begin(), samples.seen.end(), 1) == 0)
+    throw std::runtime_error("'" + path + "' has no sample that was seen");
+  return samples;
+}
+
+float TrueSurface::distance(const Eigen::Vector3f& point) const {
+  constexpr float kReach = 0.2f;
+  float squared = 0;
+  const size_t nearest = tree_.nearest(point, std::numeric_limits<float>::max(), squared);
+  const float along_normal =
+      std::abs(samples_.normals[nearest].dot(point - samples_.points[nearest]));
+  return squared - along_normal * along_normal > kReach * kReach ? std::sqrt(squared)
+                                                                 : along_normal;
+}
+
+}  // namespace lamp
