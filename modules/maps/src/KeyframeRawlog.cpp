@@ -1,9 +1,6 @@
 #include "lamp/maps/KeyframeRawlog.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
-#include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
@@ -12,6 +9,7 @@
 
 #include "MapPoints.h"
 #include "lamp/core/RawlogFile.h"
+#include "lamp/core/ScanObservation.h"
 
 namespace lamp {
 
@@ -46,34 +44,6 @@ mrpt::obs::CObservationRobotPose odometryOf(const KeyframePacket& packet,
   return odometry;
 }
 
-mrpt::maps::CPointsMap::Ptr pointsOf(const Scan& scan, uint8_t sensor) {
-  const Eigen::Vector3d origin = scan.sensors[sensor].position;
-  const auto with_intensity = scan.hasIntensity() ? mrpt::maps::CPointsMapXYZI::Create() : nullptr;
-  const mrpt::maps::CPointsMap::Ptr points =
-      with_intensity ? mrpt::maps::CPointsMap::Ptr(with_intensity)
-                     : mrpt::maps::CPointsMap::Ptr(mrpt::maps::CSimplePointsMap::Create());
-  points->reserve(std::count(scan.sensor.begin(), scan.sensor.end(), sensor));
-  for (size_t i = 0; i < scan.size(); ++i) {
-    if (scan.sensor[i] != sensor) continue;
-    const Eigen::Vector3f p = (scan.points[i].cast<double>() - origin).cast<float>();
-    points->insertPointFast(p.x(), p.y(), p.z());
-    if (with_intensity) with_intensity->setPointIntensity(points->size() - 1, scan.intensity[i]);
-  }
-  return points;
-}
-
-mrpt::obs::CObservationPointCloud cloudOf(const KeyframePacket& packet, uint8_t sensor,
-                                          const std::string& robot) {
-  const SensorOrigin& origin = packet.scan->sensors[sensor];
-  mrpt::obs::CObservationPointCloud cloud;
-  cloud.sensorLabel = robot + "/" + (origin.label.empty() ? "lidar" : origin.label);
-  cloud.timestamp = mrpt::Clock::fromDouble(packet.stamp);
-  cloud.sensorPose = mrpt::poses::CPose3D::FromTranslation(origin.position.x(), origin.position.y(),
-                                                           origin.position.z());
-  cloud.pointcloud = pointsOf(*packet.scan, sensor);
-  return cloud;
-}
-
 }  // namespace
 
 void writeKeyframeRawlog(const std::string& path, const std::string& robot,
@@ -84,7 +54,7 @@ void writeKeyframeRawlog(const std::string& path, const std::string& robot,
       sink(odometryOf(*packet, robot));
       if (!packet->scan) continue;
       for (size_t sensor = 0; sensor < packet->scan->sensors.size(); ++sensor)
-        sink(cloudOf(*packet, static_cast<uint8_t>(sensor), robot));
+        sink(scanObservation(*packet->scan, sensor, robot, packet->stamp));
     }
   });
 }

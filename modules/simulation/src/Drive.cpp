@@ -59,7 +59,8 @@ void lowerToFloor(std::vector<Vector3d>& line, const RayCaster& world) {
 }
 
 /** The driven line of a leg: off the middle by up to a fifth of the width. */
-std::vector<Vector3d> drivenLine(const Leg& leg, double wander_m, const Noise& noise, double lane) {
+std::vector<Vector3d> drivenLine(const Leg& leg, double wander_m, const Noise& noise, double lane,
+                                 const RayCaster& world) {
   const std::vector<Leg::Point> points = resample(leg);
   std::vector<Vector3d> line;
   for (size_t i = 0; i < points.size(); ++i) {

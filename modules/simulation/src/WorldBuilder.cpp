@@ -219,7 +219,7 @@ void WorldBuilder::addArtifacts(int count) {
     const double side = uniform(random_, -1, 1) * (0.5 * styleOf(passage).width_m - 0.6);
     const Vector3d at = alongPassage(passage, uniform(random_, 0.1, 0.9)) *
                         Vector3d(0, side, uniform(random_, 0.2, 1.0));
-    world_.artifacts.push_back({kKinds[static_cast<size_t>(i) % std::size(kKinds)], at});
+    world_.artifacts.push_back({i, kKinds[static_cast<size_t>(i) % std::size(kKinds)], at});
   }
 }
 

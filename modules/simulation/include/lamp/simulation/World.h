@@ -5,17 +5,11 @@
 #include <vector>
 
 #include "lamp/core/Geometry.h"
-#include "lamp/core/Options.h"
+#include "lamp/simulation/Artifacts.h"
 #include "lamp/simulation/Layout.h"
 #include "lamp/simulation/Mesh.h"
 
 namespace lamp {
-
-/** A thing that robots look for. */
-struct Artifact {
-  std::string kind;  ///< `backpack`, `survivor`, ...
-  Eigen::Vector3d position;
-};
 
 /** A synthetic place with known truth. World frame, metres; z up. */
 struct World {
