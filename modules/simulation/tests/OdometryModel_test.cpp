@@ -187,6 +187,12 @@ TEST(OdometryModel, ARobotAtRestStaysPut) {
   EXPECT_TRUE(isCovariance(growth(odometry, 0, 600)));
 }
 
+TEST(OdometryModel, RefusesARateOfZero) {
+  OdometryOptions options;
+  options.rate_hz = 0;
+  EXPECT_THROW(simulateOdometry(standing(1), options, 1), std::runtime_error);
+}
+
 TEST(OdometryModel, ATruthOfOnePoseGivesOnePose) {
   const TrajectoryInterpolator point({{kBegin, Pose3::Identity()}});
   OdometryOptions options;
