@@ -25,6 +25,10 @@ LidarOptions checked(LidarOptions options) {
   require(options.azimuth_steps <= 65535, "there are at most 65535 azimuth steps");
   require(options.max_range_m > options.min_range_m, "max_range_m must exceed min_range_m");
   require(options.grazing_deg < 90, "grazing_deg must be below 90");
+  require(options.sequences_per_block == 1 || options.sequences_per_block == 2,
+          "a block holds one or two firing sequences");
+  require(options.packets_per_observation > 0, "packets_per_observation must be positive");
+  require(options.dust_patch_s > 0, "dust_patch_s must be positive");
   return options;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace lamp {
 namespace {
@@ -22,6 +23,8 @@ void LinkOptions::visit(OptionVisitor& v) {
 Link::Link(LinkOptions options, const RayCaster& caster, const Eigen::Vector3d& base,
            const std::vector<Beacon>& beacons)
     : options_(std::move(options)), caster_(caster), relays_{{base, -kNever}} {
+  if (!(options_.check_s > 0 && options_.messages_per_s > 0))
+    throw std::runtime_error("link: check_s and messages_per_s must be positive");
   joinBeacons(beacons);
 }
 
@@ -45,7 +48,7 @@ void Link::joinBeacons(const std::vector<Beacon>& beacons) {
         since[i] = candidate;
     }
   };
-  relax(Relay(relays_.front()));
+  relax(relays_.front());
   for (size_t round = 0; round < beacons.size(); ++round) {
     size_t next = beacons.size();
     for (size_t i = 0; i < beacons.size(); ++i)
@@ -53,7 +56,7 @@ void Link::joinBeacons(const std::vector<Beacon>& beacons) {
     if (next == beacons.size()) return;
     joined[next] = true;
     relays_.push_back({beacons[next].position, since[next]});
-    relax(Relay(relays_.back()));
+    relax(relays_.back());
   }
 }
 
@@ -78,7 +81,7 @@ std::vector<double> Link::arrivalTimes(const std::vector<double>& stamps,
   arrivals.reserve(stamps.size());
   double free_from = -kNever;  // when the link can carry the next message
   for (const double stamp : stamps) {
-    const double ready = std::max(stamp, std::min(free_from, std::max(stamp, recovered)));
+    const double ready = std::max(stamp, std::min(free_from, recovered));
     const double arrival = nextContact(ready, truth, recovered);
     arrivals.push_back(arrival);
     free_from = arrival + (arrival < recovered ? 1.0 / options_.messages_per_s : 0.0);

@@ -69,6 +69,7 @@ std::shared_ptr<CObservationBearingRange> artifactObservation(const Sighting& si
   measurement.yaw = static_cast<float>(sighting.yaw_rad);
   measurement.pitch = static_cast<float>(sighting.pitch_rad);
   measurement.landmarkID = sighting.id;
+  measurement.covariance.setZero();  // not used, but written
   observation->sensedData.push_back(measurement);
   return observation;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <future>
 
 #include "Dust.h"
 #include "Reflectance.h"
@@ -140,6 +141,17 @@ TEST(Lidar, SameSeedSameBytes) {
   const auto still = standing(1);
   const auto first = lidar.sweep(still, kBegin, 7), second = lidar.sweep(still, kBegin + 0.1, 7);
   EXPECT_NE(first.returns[100].range_m, second.returns[100].range_m) << "noise of its own";
+}
+
+TEST(Lidar, ThreadsDoNotChangeASweep) {
+  const Mesh mesh = room({4, 3, 2}, Material::kRock);
+  const RayCaster caster(mesh);
+  const Lidar lidar(LidarOptions(), caster);
+  const auto truth = steady(2, (Vector6d() << 1, 0, 0, 0, 0, 0.5).finished());
+  const auto sweepAt = [&](int i) { return lidar.sweep(truth, kBegin + 0.1 * i, 7); };
+  std::vector<std::future<LidarSweep>> sweeps;
+  for (int i = 0; i < 8; ++i) sweeps.push_back(std::async(std::launch::async, sweepAt, i));
+  for (int i = 7; i >= 0; --i) EXPECT_TRUE(sameBytes(sweeps[i].get(), sweepAt(i)));
 }
 
 TEST(Lidar, MotionBendsAWallAsPredicted) {
@@ -303,6 +315,12 @@ TEST(Lidar, RefusesOptionsThatMakeNoSense) {
   EXPECT_THROW(Lidar(options, caster), std::runtime_error);
   options = {};
   options.max_range_m = options.min_range_m;
+  EXPECT_THROW(Lidar(options, caster), std::runtime_error);
+  options = {};
+  options.sequences_per_block = 3;
+  EXPECT_THROW(Lidar(options, caster), std::runtime_error);
+  options = {};
+  options.packets_per_observation = 0;
   EXPECT_THROW(Lidar(options, caster), std::runtime_error);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 #include <map>
 
@@ -29,14 +31,16 @@ Vector6d motionError(const TrajectoryInterpolator& truth, const SimulatedOdometr
 /** Errors of motions over their claimed sigmas, axis by axis. */
 struct Honesty {
   Vector6d sum = Vector6d::Zero(), sum_of_squares = Vector6d::Zero();
-  int count = 0;
+  int count = 0, beyond_95 = 0;
 
   void add(const TrajectoryInterpolator& truth, const SimulatedOdometry& odometry, size_t step) {
     for (size_t from = 0; from + step < odometry.odom_T_base.size(); from += step, ++count) {
-      const Vector6d sigmas = growth(odometry, from, from + step).diagonal().cwiseSqrt();
-      const Vector6d e = motionError(truth, odometry, from, from + step).cwiseQuotient(sigmas);
+      const Matrix6d covariance = growth(odometry, from, from + step);
+      const Vector6d error = motionError(truth, odometry, from, from + step);
+      const Vector6d e = error.cwiseQuotient(covariance.diagonal().cwiseSqrt());
       sum += e;
       sum_of_squares += e.cwiseAbs2();
+      beyond_95 += error.dot(covariance.ldlt().solve(error)) > 12.592;  // chi², 6 degrees
     }
   }
   Vector6d mean() const { return sum / count; }
@@ -87,12 +91,16 @@ TEST(OdometryModel, WithoutErrorsIsTheTruth) {
 TEST(OdometryModel, IsUnbiasedAndHonestFromTwoToAHundredMetres) {
   OdometryOptions options;
   options.rate_hz = 5;
-  for (const auto& [metres, honesty] : honestyOver({2, 10, 30, 100}, options, 300))
+  for (const auto& [metres, honesty] : honestyOver({2, 10, 30, 100}, options, 300)) {
+    const double beyond = static_cast<double>(honesty.beyond_95) / honesty.count;
+    EXPECT_GT(beyond, 0.02) << metres << " m";
+    EXPECT_LT(beyond, 0.10) << metres << " m";
     for (int axis = 0; axis < 6; ++axis) {
       EXPECT_GT(honesty.normalisedVariance()[axis], 0.5) << metres << " m, axis " << axis;
       EXPECT_LT(honesty.normalisedVariance()[axis], 2.0) << metres << " m, axis " << axis;
       EXPECT_NEAR(honesty.mean()[axis], 0, 0.15) << metres << " m, axis " << axis;
     }
+  }
 }
 
 TEST(OdometryModel, DriftsLikeOdometry) {
@@ -185,6 +193,12 @@ TEST(OdometryModel, ARobotAtRestStaysPut) {
   for (const StampedPose& p : odometry.odom_T_base) EXPECT_TRUE(isFinite(p.pose));
   EXPECT_LT(odometry.ate_m, 0.2) << "it cannot reach the ATE";
   EXPECT_TRUE(isCovariance(growth(odometry, 0, 600)));
+}
+
+TEST(OdometryModel, RefusesARateOfZero) {
+  OdometryOptions options;
+  options.rate_hz = 0;
+  EXPECT_THROW(simulateOdometry(standing(1), options, 1), std::runtime_error);
 }
 
 TEST(OdometryModel, ATruthOfOnePoseGivesOnePose) {

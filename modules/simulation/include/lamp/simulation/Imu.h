@@ -14,7 +14,7 @@ struct ImuOptions {
   double accel_sigma_m_s2 = 0.03;
   double accel_bias_m_s2 = 0.02;
   double bias_time_s = 300;
-  double window_s = 0.1;
+  double window_s = 0.2;
 
   void visit(OptionVisitor& v);
 };
@@ -28,9 +28,10 @@ struct ImuReading {
 };
 
 /** An IMU at the base's origin: finite differences of the true motion over `window_s`, with noise
- * and slowly varying biases. Near the ends of the motion, and throughout a motion shorter than the
- * window, it reads what it reads at the nearest whole window, or rest.
- * \param truth `world_T_base`, z of world upwards. */
+ * and slowly varying biases. The window must span two samples of the truth, between which the
+ * motion is a constant twist, or accelerations come and go with the samples. Near the ends of the
+ * motion, and throughout a motion shorter than the window, it reads what it reads at the nearest
+ * whole window, or rest. \param truth `world_T_base`, z of world upwards. */
 std::vector<ImuReading> simulateImu(const TrajectoryInterpolator& truth, const ImuOptions& options,
                                     uint64_t seed);
 

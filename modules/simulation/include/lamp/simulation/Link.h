@@ -21,7 +21,7 @@ struct LinkOptions {
 class Link {
  public:
   /** \param base position of the base station, world. \param beacons of all robots.
-   *  \param caster must outlive the link. */
+   *  \param caster must outlive the link. \throws std::runtime_error for options out of range. */
   Link(LinkOptions options, const RayCaster& caster, const Eigen::Vector3d& base,
        const std::vector<Beacon>& beacons);
 
