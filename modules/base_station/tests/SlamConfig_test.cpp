@@ -136,7 +136,7 @@ TEST(SlamConfig, TextReadsBackToTheSameText) {
       "[input]\nrawlogs = /data/one.rawlog, /data/two words.rawlog\n"
       "[pipeline]\ncandidates =\nverifiers = GuessDeviation, OverlapResidual, "
       "OverlapResidual@strict\ninter_robot_loops = no\nexporters = Ply\n"
-      "[frontend]\nkey_node_distance_m = 1.2345678901234567\n"
+      "[frontend]\nkeyed = true\nkey_node_distance_m = 1.2345678901234567\n"
       "[base_station]\noptimize_growth = 0.1\n"
       "[lamp::OverlapResidual@strict]\nmin_overlap = 0.8\n"
       "[lamp::Gicp]\nkernel_m = 0.123\n"
@@ -153,6 +153,7 @@ TEST(SlamConfig, TextReadsBackToTheSameText) {
   EXPECT_FALSE(config.pipeline.inter_robot_loops);
   EXPECT_EQ(config.frontend.key_node_distance_m, 1.2345678901234567);
   ASSERT_EQ(config.robots.size(), 2u);
+  EXPECT_TRUE(config.frontend.keyed);
   EXPECT_EQ(config.robots[0].name, "husky-1");
   EXPECT_THAT(config.robots[0].start_pose, ElementsAre(1, 2, 3, 90, 0, -0.5));
   EXPECT_THAT(config.robots[1].lidar_labels, ElementsAre("front", "rear"));
