@@ -11,6 +11,7 @@ packages=(
   libmrpt-maps-dev libmrpt-graphs-dev
   libceres-dev libeigen3-dev liboctomap-dev libnanoflann-dev
   libtbb-dev libcli11-dev libembree-dev nlohmann-json3-dev zlib1g-dev
+  gnuplot-nox # pictures of lamp-eval
   mrpt-common # the recording that demo.sh runs
 )
 # PCL and OctoMap's tools read our files back in the tests.

@@ -4,19 +4,16 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <set>
-#include <sstream>
 
 #include "Experiment.h"
 #include "Measures.h"
+#include "lamp/evaluation/Relations.h"
 
 namespace lamp::test {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-constexpr double kForever = std::numeric_limits<double>::infinity();
 
 std::string ini(const std::string& name) {
   return LAMP_SOURCE_DIR "/ini/" + name;
@@ -111,23 +108,6 @@ INSTANTIATE_TEST_SUITE_P(FiveStarts, BalmIndoor,
                                          std::pair(Direction(0, -1, 0.5), Direction(0, -1, 0)),
                                          std::pair(Direction(1, 1, -1), Direction(1, 1, 1))));
 
-/** The trajectory with the stamps that the relations use, which are not those of the rawlog. */
-std::vector<StampedPose> withTrueStamps(std::vector<StampedPose> trajectory,
-                                        const std::string& scan_stamps) {
-  std::ifstream file(scan_stamps);
-  size_t place = 0;
-  for (std::string line; std::getline(file, line);) {
-    size_t number = 0;
-    double true_stamp = 0, rawlog_stamp = 0;
-    if (!(std::istringstream(line) >> number >> true_stamp >> rawlog_stamp)) continue;  // comment
-    if (place == trajectory.size()) break;
-    if (std::abs(trajectory[place].stamp - rawlog_stamp) > 1e-4) continue;
-    trajectory[place++].stamp = true_stamp;
-  }
-  if (place != trajectory.size()) throw std::runtime_error("stamps that are not in " + scan_stamps);
-  return trajectory;
-}
-
 TEST(Recordings, AcesBeatsItsOdometryFourTimes) {
   const std::string folder = dataFolder() + "/radish2d/";
   if (!std::filesystem::exists(folder + "aces.rawlog"))
@@ -141,25 +121,27 @@ TEST(Recordings, AcesBeatsItsOdometryFourTimes) {
 
   const std::string stamps = folder + "aces.scan_stamps.txt";
   const auto relations = readRelations(folder + "aces.relations");
-  const auto optimised = withTrueStamps(run.trajectory("aces"), stamps);
-  const auto odometry = withTrueStamps(run.odometry("aces"), stamps);
-  const auto record = [&](const std::string& name, double from, double to) {
-    const RelationError error = relationError(optimised, relations, from, to);
-    RecordProperty(name + "_relations", static_cast<int>(error.relations));
-    RecordProperty(name + "_m", std::to_string(error.metres));
-    RecordProperty(name + "_deg", std::to_string(error.radians / kDegree));
-    RecordProperty(name + "_odometry_m",
-                   std::to_string(relationError(odometry, relations, from, to).metres));
+  const auto errorsOf = [&](const std::vector<StampedPose>& trajectory) {
+    return relationErrors(withRelationStamps(trajectory, stamps), relations);
   };
-  record("below_5_s", 0, 5);
-  record("from_5_s", 5, kForever);
-  record("all", 0, kForever);
+  const RelationErrors optimised = errorsOf(run.trajectory("aces"));
+  const RelationErrors odometry = errorsOf(run.odometry("aces"));
+  const auto record = [&](const std::string& name, RelationError RelationErrors::*part) {
+    const auto text = [](double number) { return std::to_string(number); };
+    RecordProperty(name + "_relations", static_cast<int>((optimised.*part).translation_m.count));
+    RecordProperty(name + "_m", text((optimised.*part).translation_m.mean));
+    RecordProperty(name + "_deg", text((optimised.*part).rotation_deg.mean));
+    RecordProperty(name + "_odometry_m", text((odometry.*part).translation_m.mean));
+  };
+  record("below_5_s", &RelationErrors::below_5_s);
+  record("from_5_s", &RelationErrors::from_5_s);
+  record("all", &RelationErrors::all);
 
-  const RelationError before = relationError(odometry, relations, 0, kForever);
-  EXPECT_NEAR(before.metres, 0.55, 0.03) << "what data-notes.md says of odometry alone";
-  EXPECT_LT(relationError(optimised, relations, 0, kForever).metres, before.metres / 4);
-  EXPECT_LT(relationError(optimised, relations, 5, kForever).metres,
-            relationError(odometry, relations, 5, kForever).metres / 4);
+  const double before = odometry.all.translation_m.mean;
+  EXPECT_EQ(optimised.without_pose, 0u);
+  EXPECT_NEAR(before, 0.55, 0.03) << "what data-notes.md says of odometry alone";
+  EXPECT_LT(optimised.all.translation_m.mean, before / 4);
+  EXPECT_LT(optimised.from_5_s.translation_m.mean, odometry.from_5_s.translation_m.mean / 4);
 }
 
 }  // namespace

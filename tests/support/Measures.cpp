@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <stdexcept>
 
@@ -33,37 +32,6 @@ double ateFromFirst(const std::vector<StampedPose>& estimate,
     sum += ((truth_T_estimate * pose.pose).translation() - poseAt(truth, pose.stamp).translation())
                .squaredNorm();
   return std::sqrt(sum / static_cast<double>(estimate.size()));
-}
-
-std::vector<Relation> readRelations(const std::string& path) {
-  std::ifstream file(path);
-  std::vector<Relation> relations;
-  double from, to, x, y, z, roll, pitch, yaw;
-  while (file >> from >> to >> x >> y >> z >> roll >> pitch >> yaw) {
-    Vector6d pose;
-    pose << x, y, z, yaw, pitch, roll;
-    relations.push_back({from, to, poseFromYawPitchRoll(pose)});
-  }
-  return relations;
-}
-
-RelationError relationError(const std::vector<StampedPose>& trajectory,
-                            const std::vector<Relation>& relations, double min_seconds,
-                            double max_seconds) {
-  RelationError mean;
-  for (const Relation& relation : relations) {
-    const double seconds = std::abs(relation.to - relation.from);
-    if (seconds < min_seconds || seconds >= max_seconds) continue;
-    const Pose3 estimated =
-        poseAt(trajectory, relation.from).inverse() * poseAt(trajectory, relation.to);
-    const Pose3 error = relation.from_T_to.inverse() * estimated;
-    mean.metres += error.translation().norm();
-    mean.radians += rotationAngle(error);
-    ++mean.relations;
-  }
-  mean.metres /= static_cast<double>(mean.relations);
-  mean.radians /= static_cast<double>(mean.relations);
-  return mean;
 }
 
 size_t occupiedCells(const std::vector<Eigen::Vector3f>& points, double edge_m) {

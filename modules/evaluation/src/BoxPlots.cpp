@@ -112,9 +112,9 @@ void drawBoxPlots(const std::vector<RunEvaluation>& runs, Gnuplot& gnuplot) {
                       (runs.size() == 1 ? runs[0].name : std::to_string(runs.size()) + " runs") +
                       ", alignment " + toString(runs[0].trajectories->alignment)) +
       "\nset boxwidth " + formatFixed(0.8 * width, 4) + "\nset style fill solid 0.35\n" +
-      ticks(robots) + (logarithm ? "set logscale y\n" : "set yrange [0:*]\n") +
+      ticks(robots) + (logarithm ? kLogarithmicError : "set yrange [0:*]\n") +
       "set ylabel 'position error [m]'\nset grid noxtics\n"
-      "set key outside bottom center horizontal\nplot \\\n" +
+      "plot \\\n" +
       boxLines(series) + "\n";
   const int width_px =
       std::clamp(500 + static_cast<int>(60 * robots.size() * series.size()), 800, 2400);

@@ -59,7 +59,10 @@ void Gnuplot::draw(const std::string& name, int width, int height, const std::st
                     std::to_string(height) +
                     " font 'sans,15' background '#ffffff'\n"
                     "set output '" +
-                    name + ".png'\nset border lc '#666666'\nset grid lc '#dddddd' lw 1\n" + script);
+                    name +
+                    ".png'\nset border lc '#666666'\nset grid lt 1 lc '#dddddd' lw 1\n"
+                    "set key outside right top vertical Left reverse samplen 2\n" +
+                    script);
   const std::string failure = runGnuplot(folder_, name + ".gp");
   if (!failure.empty() && std::find(warnings_.begin(), warnings_.end(), failure) == warnings_.end())
     warnings_.push_back(failure);

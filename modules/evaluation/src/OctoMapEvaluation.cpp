@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <unordered_set>
 
@@ -18,19 +19,37 @@ namespace {
 
 constexpr double kWatertightVoxel = 0.2;  ///< metres; samples are 0.1 m apart
 
+/** What OcTree::readBinary() does, which also prints to the terminal, and takes a file that ends
+ * early for a smaller tree. \return null if the file is none or damaged. */
+std::unique_ptr<octomap::OcTree> readBonsai(std::istream& file) {
+  std::string line, keyword, id;
+  size_t size = 0;
+  double resolution = 0;
+  while (std::getline(file, line) && line != "data") {
+    std::istringstream words(line);
+    words >> keyword;
+    if (keyword == "id") words >> id;
+    if (keyword == "size") words >> size;
+    if (keyword == "res") words >> resolution;
+  }
+  if (!file || id != "OcTree" || size == 0 || !(resolution > 0)) return nullptr;
+  auto tree = std::make_unique<octomap::OcTree>(resolution);
+  tree->readBinaryData(file);
+  const bool complete = file && tree->calcNumNodes() == size;
+  return complete ? std::move(tree) : nullptr;
+}
+
+std::unique_ptr<octomap::OcTree> readLogOdds(std::istream& file) {
+  std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(file));
+  auto* tree = dynamic_cast<octomap::OcTree*>(any.get());
+  if (tree) any.release();
+  return std::unique_ptr<octomap::OcTree>(tree);
+}
+
 std::unique_ptr<octomap::OcTree> readTree(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::unique_ptr<octomap::OcTree> tree;
-  if (std::filesystem::path(path).extension() == ".bt") {
-    tree = std::make_unique<octomap::OcTree>(kWatertightVoxel);
-    if (!file || !tree->readBinary(file)) tree.reset();
-  } else {
-    std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(file));
-    if (auto* found = dynamic_cast<octomap::OcTree*>(any.get())) {
-      any.release();
-      tree.reset(found);
-    }
-  }
+  const bool binary = std::filesystem::path(path).extension() == ".bt";
+  auto tree = binary ? readBonsai(file) : readLogOdds(file);
   if (!tree || tree->size() == 0)
     throw std::runtime_error("'" + path + "' is no OctoMap, or an empty or damaged one");
   return tree;

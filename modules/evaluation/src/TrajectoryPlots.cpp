@@ -1,6 +1,7 @@
 #include "TrajectoryPlots.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lamp/core/Csv.h"
 
@@ -35,7 +36,7 @@ std::string positions(const TrajectoryEvaluation& evaluation) {
 
 std::string viewScript(const TrajectoryEvaluation& evaluation, const std::string& file,
                        const std::string& columns) {
-  std::string script = "set key outside bottom center horizontal\nplot \\\n";
+  std::string script = "plot \\\n";
   const auto block = [&](size_t index) { return "'" + file + "' index " + std::to_string(index); };
   for (size_t i = 0; i < evaluation.robots.size(); ++i)
     script += "  " + block(2 * i + 1) + " using " + columns + " with lines lw 3 lc rgb " +
@@ -59,6 +60,47 @@ void appendErrors(const TrajectoryError& error, const std::string& comment, std:
   data += "\n\n";
 }
 
+/** The drawn range of one coordinate of truth and result, with a margin. */
+struct Extent {
+  double min = std::numeric_limits<double>::infinity(), max = -min;
+
+  void add(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  double length() const { return max - min; }
+  /** Grows to both sides, so that axes of equal scale have room for their labels. */
+  void growTo(double wanted) {
+    const double missing = std::max(0.0, wanted - length());
+    min -= 0.5 * missing;
+    max += 0.5 * missing;
+  }
+  std::string range() const { return "[" + formatFixed(min, 3) + ":" + formatFixed(max, 3) + "]"; }
+};
+
+/** Draws two coordinates with axes of equal scale. */
+void drawView(const RunEvaluation& run, const std::string& name, const std::string& title,
+              Eigen::Index upward, Gnuplot& gnuplot) {
+  constexpr double kMargin = 1.06, kFlattest = 0.25, kSteepest = 1.2, kPlotWidth = 900;
+  Extent x, y;
+  for (const RobotEvaluation& robot : run.trajectories->robots)
+    for (const JoinedPose& pose : robot.poses)
+      for (const Pose3& T : {pose.truth, robot.truth_T_world * pose.estimate}) {
+        x.add(T.translation().x());
+        y.add(T.translation()[upward]);
+      }
+  const double length = kMargin * std::max({x.length(), y.length() / kSteepest, 1.0});
+  x.growTo(length);
+  y.growTo(std::max(kFlattest * length, kMargin * y.length()));
+  const int height = static_cast<int>(kPlotWidth * y.length() / x.length()) + 130;
+  gnuplot.draw(name, 1200, height,
+               titleOf(run, title) + "set size ratio -1\nset xlabel 'x [m]'\nset ylabel '" +
+                   (upward == 1 ? "y" : "z") + " [m]'\nset xrange " + x.range() + "\nset yrange " +
+                   y.range() + "\n" +
+                   viewScript(*run.trajectories, name + ".dat", upward == 1 ? "1:2" : "1:3"),
+               positions(*run.trajectories));
+}
+
 double largest(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
@@ -78,17 +120,8 @@ bool needsLogarithm(double small_max, double large_max) {
 }
 
 void drawTrajectories(const RunEvaluation& run, const std::string& prefix, Gnuplot& gnuplot) {
-  const std::string data = positions(*run.trajectories);
-  const std::string axes = "set size ratio -1\nset xlabel 'x [m]'\n";
-  const std::string top = prefix + "trajectories_top", side = prefix + "trajectories_side";
-  gnuplot.draw(top, 1200, 1000,
-               titleOf(run, "Seen from above") + axes + "set ylabel 'y [m]'\n" +
-                   viewScript(*run.trajectories, top + ".dat", "1:2"),
-               data);
-  gnuplot.draw(side, 1200, 700,
-               titleOf(run, "Seen from the side") + axes + "set ylabel 'z [m]'\n" +
-                   viewScript(*run.trajectories, side + ".dat", "1:3"),
-               data);
+  drawView(run, prefix + "trajectories_top", "Seen from above", 1, gnuplot);
+  drawView(run, prefix + "trajectories_side", "Seen from the side", 2, gnuplot);
 }
 
 void drawErrorOverDistance(const RunEvaluation& run, const std::string& prefix, Gnuplot& gnuplot) {
@@ -112,9 +145,9 @@ void drawErrorOverDistance(const RunEvaluation& run, const std::string& prefix, 
       needsLogarithm(largest(all.result.error.position_m), largest(all.odometry.error.position_m));
   gnuplot.draw(name, 1200, 700,
                titleOf(run, "Position error") +
-                   (logarithm ? "set logscale y\n" : "set yrange [0:*]\n") +
+                   (logarithm ? kLogarithmicError : "set yrange [0:*]\n") +
                    "set xlabel 'distance travelled [m]'\nset ylabel 'position error [m]'\n"
-                   "set key outside bottom center horizontal\nplot \\\n" +
+                   "plot \\\n" +
                    lines + "\n",
                data);
 }

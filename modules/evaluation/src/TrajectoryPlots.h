@@ -19,5 +19,8 @@ std::string titleOf(const RunEvaluation& run, const std::string& what);
 
 /** Two sets of errors are so different that only a logarithmic axis shows both. */
 bool needsLogarithm(double small_max, double large_max);
+/** That axis; less than a millimetre is not drawn. */
+constexpr const char* kLogarithmicError =
+    "set logscale y\nset yrange [0.001:*]\nset format y '%g'\n";
 
 }  // namespace lamp

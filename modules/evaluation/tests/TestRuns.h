@@ -85,6 +85,8 @@ class TestRun {
   const RunFolder& folder() const { return folder_; }
   std::string root() const { return folder_.root(); }
   std::string truth() const { return root_ + "/truth_of_it"; }
+  /** Of a file beside the two. */
+  std::string beside(const std::string& name) const { return root_ + "/" + name; }
 
   /** A robot with its estimated path and truth; the odometry is the path too. */
   void addRobot(const std::string& name, const Path& estimate, const Path& true_path,
