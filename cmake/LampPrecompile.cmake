@@ -1,6 +1,5 @@
 # The headers that most of the build time goes to, compiled once for the libraries and once for the
-# tests (which have other compiler flags). Every file still includes what it uses: the presets other
-# than `release` build without this.
+# tests (which have other compiler flags). Every file still includes what it uses.
 # What is tested is optimised; the tests themselves would only take longer to compile.
 set(LAMP_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 file(WRITE ${PROJECT_BINARY_DIR}/precompile.cpp "")

@@ -135,6 +135,7 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
   if (components.size() > 1)
     text << "No trusted loop closure joins these " << components.size()
          << " components: they stay separate maps.\n";
+  if (result.interrupted) text << "The run was interrupted: this is the map up to there.\n";
   return text.str();
 }
 

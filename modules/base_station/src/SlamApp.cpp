@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <iostream>
+#include <limits>
 #include <thread>
 
 #include "lamp/base_station/SlamRun.h"
@@ -78,7 +79,8 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "Threads for registration; results do not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));
-  app.add_option("--seed", arguments.seed, "Overrides run.seed")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", arguments.seed, "Overrides run.seed")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_option("--log", arguments.log, "How much to say: DEBUG, INFO, WARN, ERROR")
       ->capture_default_str()
       ->check(CLI::IsMember({"DEBUG", "INFO", "WARN", "ERROR"}));
@@ -91,7 +93,7 @@ void describe(CLI::App& app, Arguments& arguments) {
 SlamConfig readConfig(const Arguments& arguments) {
   std::vector<std::string> overrides = arguments.overrides;
   if (arguments.seed >= 0) overrides.push_back("run.seed=" + std::to_string(arguments.seed));
-  return SlamConfig::fromFile(arguments.config, overrides);
+  return SlamConfig::fromFile(arguments.config, overrides, arguments.rawlogs);
 }
 
 int run(const Arguments& arguments) {
@@ -119,11 +121,9 @@ int run(const Arguments& arguments) {
     return kWrongUse;
   }
   ::signal(SIGINT, onInterrupt);
-  SlamRun slam(std::move(config), {arguments.rawlogs, arguments.out, arguments.threads},
-               interrupted);
+  SlamRun slam(std::move(config), {arguments.out, arguments.threads}, interrupted);
   slam.setMinLoggingLevel(kLevels.at(arguments.log));
   std::cout << runLogged(slam);
-  if (interrupted) std::cout << "The run was interrupted: this is the map up to there.\n";
   return kOk;
 }
 

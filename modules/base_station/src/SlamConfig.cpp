@@ -1,12 +1,15 @@
 #include "lamp/base_station/SlamConfig.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <set>
 
 #include "lamp/registration/LoopClosureComputation.h"
 
 namespace lamp {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -78,6 +81,30 @@ class Maker {
   Faults& faults_;
 };
 
+/** A path as seen from anywhere; an empty one stays empty. */
+std::string anchored(const std::string& path, const fs::path& folder) {
+  return path.empty() ? path : (folder / path).lexically_normal().string();
+}
+
+/** Makes the paths of recordings in an ini absolute. */
+void anchorPaths(Ini& ini, const fs::path& folder) {
+  std::vector<std::pair<std::string, Ini::Entry>> changed;
+  for (const Ini::Section& section : ini.sections())
+    for (Ini::Entry entry : section.entries) {
+      const bool of_robot =
+          section.name.rfind(kRobotPrefix, 0) == 0 &&
+          (entry.key == "rawlog" || entry.key == "odometry_file" || entry.key == "arrivals");
+      if (!of_robot && !(section.name == "input" && entry.key == "rawlogs")) continue;
+      std::string list;
+      for (const std::string& path : splitWords(entry.value))
+        list += (list.empty() ? "" : ", ") + anchored(path, folder);
+      entry.value = of_robot ? anchored(entry.value, folder) : list;
+      changed.emplace_back(section.name, entry);
+    }
+  for (const auto& [section, entry] : changed)
+    ini.set(section, entry.key, entry.value, entry.where);
+}
+
 }  // namespace
 
 void PipelineOptions::visit(OptionVisitor& v) {
@@ -121,12 +148,19 @@ void BaseStationOptions::visit(OptionVisitor& v) {
   v("max_attempts", max_attempts, "", "attempts for one pair of key nodes", {1});
 }
 
-SlamConfig SlamConfig::fromFile(const std::string& path,
-                                const std::vector<std::string>& overrides) {
+SlamConfig SlamConfig::fromFile(const std::string& path, const std::vector<std::string>& overrides,
+                                const std::vector<std::string>& rawlogs) {
   Faults faults;
   Ini ini = Ini::fromFile(path, faults);
+  anchorPaths(ini, fs::absolute(path).parent_path());
   for (const std::string& assignment : overrides) ini.set(assignment, faults);
-  return SlamConfig(std::move(ini), std::move(faults));
+  SlamConfig config(std::move(ini), std::move(faults));
+  config.input.rawlogs.insert(config.input.rawlogs.end(), rawlogs.begin(), rawlogs.end());
+  for (std::string& rawlog : config.input.rawlogs) rawlog = anchored(rawlog, fs::current_path());
+  for (RobotOptions& robot : config.robots)
+    for (std::string* file : {&robot.rawlog, &robot.odometry_file, &robot.arrivals})
+      *file = anchored(*file, fs::current_path());
+  return config;
 }
 
 SlamConfig::SlamConfig(Ini ini, Faults faults) : ini_(std::move(ini)) {

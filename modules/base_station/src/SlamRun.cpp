@@ -91,25 +91,13 @@ std::string explainEmptyRun(const std::vector<FrontEndReport>& reports, const Ro
   return text;
 }
 
-/** Paths in the effective ini must hold from any folder. */
-void makePathsAbsolute(SlamConfig& config, const std::vector<std::string>& rawlogs) {
-  namespace fs = std::filesystem;
-  for (RobotOptions& robot : config.robots)
-    for (std::string* path : {&robot.rawlog, &robot.odometry_file, &robot.arrivals})
-      if (!path->empty()) *path = fs::absolute(*path).lexically_normal().string();
-  for (const std::string& rawlog : rawlogs)
-    config.input.rawlogs.push_back(fs::absolute(rawlog).lexically_normal().string());
-}
-
 }  // namespace
 
 SlamRun::SlamRun(SlamConfig config, Job job, const std::atomic<bool>& interrupted)
     : COutputLogger("lamp-slam"),
       config_(std::move(config)),
       job_(std::move(job)),
-      interrupted_(interrupted) {
-  makePathsAbsolute(config_, job_.rawlogs);
-}
+      interrupted_(interrupted) {}
 
 void SlamRun::warn(const std::vector<std::string>& warnings, const std::string& prefix) {
   for (const std::string& warning : warnings) MRPT_LOG_WARN_STREAM(prefix << warning);

@@ -8,6 +8,7 @@
 
 #include "GaugeAnchors.h"
 #include "PoseSpaces.h"
+#include "SquareRoot.h"
 
 namespace lamp {
 
@@ -48,15 +49,6 @@ class PoseManifold : public ceres::Manifold {
     return true;
   }
 };
-
-/** A square root S of a positive semi-definite matrix: m = Sᵀ S. Singular matrices are welcome. */
-template <class Matrix>
-Matrix squareRoot(const Matrix& m) {
-  const Eigen::LDLT<Matrix> ldlt(m);
-  const Matrix upper = ldlt.matrixU();
-  const Matrix permuted = upper * ldlt.transpositionsP();
-  return ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal() * permuted;
-}
 
 /** An edge of the graph, ready for evaluation. */
 template <class Space>

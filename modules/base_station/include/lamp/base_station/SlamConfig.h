@@ -74,8 +74,11 @@ class SlamConfig {
    *  \param faults that reading the ini has found.
    *  \throws ConfigError with all faults at once; std::runtime_error if a file cannot be read. */
   explicit SlamConfig(Ini ini, Faults faults = {});
-  /** Reads the file and applies `section.key=value` overrides. */
-  static SlamConfig fromFile(const std::string& path, const std::vector<std::string>& overrides);
+  /** Reads the file and applies `section.key=value` overrides. Paths of recordings in the file are
+   * relative to the file, those of overrides and `rawlogs` to the working directory; all become
+   * absolute. \param rawlogs further recordings, beside those that the ini names. */
+  static SlamConfig fromFile(const std::string& path, const std::vector<std::string>& overrides,
+                             const std::vector<std::string>& rawlogs = {});
 
   PluginOptions plugins;
   RunOptions run;

@@ -17,9 +17,8 @@ namespace lamp {
 class SlamRun : public mrpt::system::COutputLogger {
  public:
   struct Job {
-    std::vector<std::string> rawlogs;  ///< beside those that the ini names
-    std::string out;                   ///< folder of the run; must be new or empty
-    int threads = 1;                   ///< for registration
+    std::string out;  ///< folder of the run; must be new or empty
+    int threads = 1;  ///< for registration
   };
 
   /** \param interrupted may be set from a signal handler: the run then ends early with what it has.
