@@ -29,6 +29,10 @@ bool FrontEndTeam::send(std::vector<KeyframePacket> packets) {
 }
 
 bool FrontEndTeam::observe(const InputObservation& observation) {
+  // Time moves on for all: a key node must not wait for its robot's next observation, or the base
+  // station would get it after later ones of others.
+  for (auto& [robot, front_end] : front_ends_)
+    if (robot != observation.robot && !send(front_end.advanceTo(observation.stamp))) return false;
   return send(of(observation.robot).observe(observation));
 }
 

@@ -17,7 +17,8 @@ class FrontEndTeam {
  public:
   FrontEndTeam(const SlamConfig& config, MessageSender& sender);
 
-  /** \return false if nobody receives the key nodes any more. */
+  /** Takes the team's observations in time order.
+   *  \return false if nobody receives the key nodes any more. */
   bool observe(const InputObservation& observation);
   /** Flushes what waits and closes the robots' streams. */
   void finish();

@@ -78,6 +78,22 @@ TEST(FrontEndTeam, ClosesEachRobotsStream) {
   EXPECT_EQ(reports[1].counts.key_nodes, 1u);
 }
 
+TEST(FrontEndTeam, KeyNodesOfKeyedInputComeInTheRecordedOrder) {
+  const SlamConfig config = configFrom("[frontend]\nkeyed = true\n");
+  Mailbox mailbox;
+  FrontEndTeam team(config, mailbox);
+  for (const auto& [robot, stamp] : {std::pair{kA, 100.0}, {kB, 100.0}, {kB, 101.0}, {kB, 102.0}}) {
+    team.observe(cloud(robot, stamp));
+    team.observe(wheels(robot, stamp));
+  }
+  team.finish();  // A has said nothing since 100
+  ASSERT_EQ(mailbox.messages.size(), 6u);
+  const auto id = [&](size_t i) { return std::get<KeyframePacket>(mailbox.messages[i]).id; };
+  EXPECT_EQ(id(0), (KeyframeId{kA, 0}));
+  EXPECT_EQ(id(1), (KeyframeId{kB, 0}));
+  EXPECT_EQ(id(2), (KeyframeId{kB, 1}));
+}
+
 TEST(FrontEndTeam, StopsWhenNobodyReceives) {
   const SlamConfig config = configFrom("");
   Mailbox mailbox;

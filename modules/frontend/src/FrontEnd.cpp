@@ -76,6 +76,11 @@ std::vector<KeyframePacket> FrontEnd::observe(const InputObservation& observatio
   return processCoveredScans();
 }
 
+std::vector<KeyframePacket> FrontEnd::advanceTo(double stamp) {
+  if (auto scan = assembler_->advanceTo(stamp)) enqueue(std::move(*scan));
+  return processCoveredScans();
+}
+
 void FrontEnd::enqueue(ScanParts scan) {
   ++counts_.scans;
   if (waiting_.size() == kMaxWaitingScans) {

@@ -19,9 +19,12 @@ std::optional<ScanParts> ReferenceLidarScans::observe(const InputObservation& ob
   return scan;
 }
 
+std::optional<ScanParts> SameStampScans::advanceTo(double stamp) {
+  return open_ && stamp > open_->stamp ? finish() : std::nullopt;
+}
+
 std::optional<ScanParts> SameStampScans::observe(const InputObservation& observation) {
-  std::optional<ScanParts> complete;
-  if (open_ && observation.stamp > open_->stamp) complete = finish();
+  auto complete = advanceTo(observation.stamp);
   if (isLidar(*observation.observation)) takeLidar(observation);
   return complete;
 }

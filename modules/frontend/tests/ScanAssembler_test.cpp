@@ -50,6 +50,15 @@ TEST(SameStampScans, AScanIsCompleteWhenTimeMovesOn) {
   EXPECT_THAT(scans.warnings(), IsEmpty());
 }
 
+TEST(SameStampScans, AScanIsCompleteWhenOnlyTimeMovesOn) {
+  SameStampScans scans;
+  EXPECT_EQ(text(scans.advanceTo(kStart)), "none");
+  scans.observe(scan(0, "front"));
+  EXPECT_EQ(text(scans.advanceTo(kStart)), "none") << "more of that time may come";
+  EXPECT_EQ(text(scans.advanceTo(kStart + 0.1)), "0: front");
+  EXPECT_EQ(text(scans.advanceTo(kStart + 0.2)), "none");
+}
+
 TEST(SameStampScans, CloudsThatComeTooLateAreCounted) {
   SameStampScans scans;
   scans.observe(scan(1, "front"));

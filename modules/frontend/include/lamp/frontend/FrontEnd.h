@@ -39,6 +39,9 @@ class FrontEnd {
 
   /** \return the key nodes that the observation completes, in time order. */
   std::vector<KeyframePacket> observe(const InputObservation& observation);
+  /** Nothing of the robot before `stamp` (seconds, UTC) will come.
+   *  \return the key nodes that are complete by this. */
+  std::vector<KeyframePacket> advanceTo(double stamp);
   /** Handles what still waits for odometry, and closes the stream. */
   std::vector<KeyframePacket> finish();
   /** The scans after the last key node; to be called after finish(). */

@@ -19,7 +19,10 @@ struct ScanParts {
 class ScanAssembler {
  public:
   virtual ~ScanAssembler() = default;
-  /** Takes all observations of the robot, in time order; those that are no lidar tell the time.
+  /** Nothing before `stamp` (seconds, UTC) will come.
+   *  \return the scan that is complete by this, if one is. */
+  virtual std::optional<ScanParts> advanceTo(double stamp) = 0;
+  /** Takes the robot's observations in time order, those that are no lidar too.
    *  \return the scan that is complete by this, if one is. */
   virtual std::optional<ScanParts> observe(const InputObservation& observation) = 0;
   /** No more observations will come. \return the scan that still waited for some. */
@@ -34,6 +37,7 @@ class ReferenceLidarScans : public ScanAssembler {
  public:
   explicit ReferenceLidarScans(double merge_window_s) : merge_window_s_(merge_window_s) {}
 
+  std::optional<ScanParts> advanceTo(double) override { return std::nullopt; }
   std::optional<ScanParts> observe(const InputObservation& observation) override;
   std::optional<ScanParts> finish() override { return std::nullopt; }
   std::vector<std::string> warnings() const override { return {}; }
@@ -48,6 +52,7 @@ class ReferenceLidarScans : public ScanAssembler {
  * complete when time has moved on. */
 class SameStampScans : public ScanAssembler {
  public:
+  std::optional<ScanParts> advanceTo(double stamp) override;
   std::optional<ScanParts> observe(const InputObservation& observation) override;
   std::optional<ScanParts> finish() override;
   std::vector<std::string> warnings() const override;
