@@ -114,9 +114,11 @@ TEST(OdometryModel, DriftsLikeOdometry) {
 
 TEST(OdometryModel, GravityBoundsRollAndPitchButNotHeading) {
   const auto truth = winding(3000);
+  OdometryOptions options;
+  options.rate_hz = 1;
   double tilt = 0, heading = 0;
   for (int seed = 0; seed < 20; ++seed) {
-    const auto odometry = simulateOdometry(truth, {}, seed);
+    const auto odometry = simulateOdometry(truth, options, seed);
     const Vector6d e = motionError(truth, odometry, 0, odometry.odom_T_base.size() - 1);
     tilt += e.segment<2>(3).squaredNorm() / 2 / 20;
     heading += e[5] * e[5] / 20;
@@ -169,6 +171,7 @@ TEST(OdometryModel, ErrorsGrowUntilTheAteIsReached) {
 
 TEST(OdometryModel, ScaledErrorsStayHonest) {
   OdometryOptions options;
+  options.rate_hz = 2;
   options.min_ate_m = 3;
   const Honesty honesty = honestyOver({30}, options, 60).at(30);
   for (int axis = 0; axis < 6; ++axis) {
