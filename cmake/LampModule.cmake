@@ -17,6 +17,7 @@ function(add_lamp_module name)
   target_compile_features(lamp_${name} PUBLIC cxx_std_17)
   target_link_libraries(lamp_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
     $<BUILD_INTERFACE:lamp_warnings>)
+  target_precompile_headers(lamp_${name} REUSE_FROM lamp_precompiled)
   install(TARGETS lamp_${name} EXPORT mrpt_lamp DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
@@ -32,8 +33,8 @@ endfunction()
 function(lamp_add_test target label)
   add_executable(${target} ${ARGN})
   target_link_libraries(${target} PRIVATE GTest::gtest GTest::gmock GTest::gtest_main lamp_warnings)
-  # What is tested is optimised; the tests themselves would only take longer to compile.
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE ${LAMP_TEST_OPTIONS})
+  target_precompile_headers(${target} REUSE_FROM lamp_precompiled_tests)
   target_compile_definitions(${target} PRIVATE
     LAMP_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LAMP_BINARY_DIR="${PROJECT_BINARY_DIR}")
   include(GoogleTest)

@@ -19,16 +19,6 @@ SyntheticRobot robot(const std::string& name, const std::vector<Eigen::Vector2d>
   return result;
 }
 
-void expectSameFiles(const FinishedRun& one, const FinishedRun& two) {
-  const auto files_of_one = one.files(), files_of_two = two.files();
-  ASSERT_EQ(files_of_one.size(), files_of_two.size());
-  for (const auto& [name, content] : files_of_one) {
-    const auto found = files_of_two.find(name);
-    ASSERT_NE(found, files_of_two.end()) << name;
-    EXPECT_TRUE(found->second == content) << name << " differs";
-  }
-}
-
 /** A run of two robots with maps of all kinds, on one thread. */
 class Repeatability : public testing::Test {
  protected:
@@ -87,12 +77,17 @@ bool waitUntilBusy(LampProcess& process, const FinishedRun& run) {
   return process.isRunning() && run.has("");
 }
 
-TEST(Interrupt, LeavesACompleteRunFolder) {
-  const Experiment experiment;
+/** Three laps, which keep the program busy for long with slowIni(). */
+Recording longRecording() {
   SyntheticRobot long_way = robot("A", ringRoute());
   for (int lap = 0; lap < 2; ++lap)
     for (const Eigen::Vector2d& point : ringRoute()) long_way.route.push_back(point);
-  const Recording recording = long_way.record3d(BoxWorld::building(7));
+  return long_way.record3d(BoxWorld::building(7));
+}
+
+TEST(Interrupt, LeavesACompleteRunFolder) {
+  const Experiment experiment;
+  const Recording recording = longRecording();
   LampProcess process({experiment.file("slow.ini", slowIni()),
                        experiment.rawlog("A.rawlog", recording.objects), "--threads", "1", "--set",
                        "frontend.key_node_distance_m=0.3", "--out", experiment.path("run")});
@@ -114,6 +109,27 @@ TEST(Interrupt, LeavesACompleteRunFolder) {
         "maps/map.ot", "maps/map.png", "summary.json", "timings.json"})
     EXPECT_TRUE(run.has(file)) << file;
   EXPECT_EQ(run.files().size(), 16u) << "and nothing temporary beside them";
+}
+
+TEST(Interrupt, LeavesOutWhatHasNotArrivedYet) {
+  const Experiment experiment;
+  const Recording a = longRecording(),
+                  b = robot("B", oppositeRoute()).record3d(BoxWorld::building(7));
+  const std::string ini =
+      slowIni() +
+      "[robot.A]\narrivals = " + experiment.file("A.csv", "stamp,arrival\n1000,1000\n2000,2000\n") +
+      "\n[robot.B]\narrivals = " + experiment.file("B.csv", "stamp,arrival\n2000,9000\n") + "\n";
+  LampProcess process({experiment.file("slow.ini", ini), experiment.rawlog("A.rawlog", a.objects),
+                       experiment.rawlog("B.rawlog", b.objects), "--threads", "1", "--set",
+                       "frontend.key_node_distance_m=0.3", "--set", "input.order=arrival", "--out",
+                       experiment.path("run")});
+  ASSERT_TRUE(waitUntilBusy(process, experiment.result())) << process.wait().err;
+  process.interrupt();
+  const LampResult end = process.wait();
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  EXPECT_EQ(experiment.result().summary()["interrupted"], true);
+  EXPECT_TRUE(experiment.result().has("trajectories/A.tum"));
+  EXPECT_FALSE(experiment.result().has("trajectories/B.tum"));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "Experiment.h"
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 
 #include "lamp/core/Files.h"
@@ -40,6 +42,16 @@ std::map<std::string, std::string> FinishedRun::files() const {
       files[name] = readFile(entry.path().string());
   }
   return files;
+}
+
+void expectSameFiles(const FinishedRun& one, const FinishedRun& two) {
+  const auto files_of_one = one.files(), files_of_two = two.files();
+  ASSERT_EQ(files_of_one.size(), files_of_two.size());
+  for (const auto& [name, content] : files_of_one) {
+    const auto found = files_of_two.find(name);
+    ASSERT_NE(found, files_of_two.end()) << name;
+    EXPECT_TRUE(found->second == content) << name << " differs";
+  }
 }
 
 std::vector<LoopEnds> inlierLoops(const CsvTable& loops) {

@@ -35,6 +35,9 @@ class FinishedRun {
   RunFolder folder_;
 };
 
+/** Fails the test for each file that differs, timings.json apart. */
+void expectSameFiles(const FinishedRun& one, const FinishedRun& two);
+
 /** The ends of an accepted loop closure, `robot:index`. */
 using LoopEnds = std::pair<std::string, std::string>;
 std::vector<LoopEnds> inlierLoops(const CsvTable& loops);

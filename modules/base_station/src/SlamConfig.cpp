@@ -98,6 +98,9 @@ void PluginOptions::visit(OptionVisitor& v) {
 
 void InputOptions::visit(OptionVisitor& v) {
   v("rawlogs", rawlogs, "recordings, beside those that [robot.NAME] sections name");
+  v("order", order,
+    "order of the key nodes at the base station: as recorded, or by the robots' arrivals files",
+    {"recorded", "arrival"});
 }
 
 void RunOptions::visit(OptionVisitor& v) {
@@ -136,6 +139,7 @@ SlamConfig::SlamConfig(Ini ini, Faults faults) : ini_(std::move(ini)) {
   readOptions(ini_.find("registration"), preparation, faults);
   readOptions(ini_.find("base_station"), base_station, faults);
   readRobots(faults);
+  checkArrivals(faults);
   makeStages(faults);
   checkSections(faults);
   faults.throwIfAny();
@@ -158,6 +162,20 @@ void SlamConfig::readRobots(Faults& faults) {
     }
     robots.push_back(std::move(robot));
   }
+}
+
+/** In the order of arrival, a robot of which nobody knows when it arrives has no place. */
+void SlamConfig::checkArrivals(Faults& faults) const {
+  if (!input.inArrivalOrder()) return;
+  if (robots.empty())
+    faults.add(ini_.find("input")->find("order")->where,
+               "[input] order = arrival: needs a section [robot.NAME] with arrivals = FILE.csv for "
+               "each robot");
+  for (const RobotOptions& robot : robots)
+    if (robot.arrivals.empty())
+      faults.add(ini_.find(kRobotPrefix + robot.name)->where,
+                 "[robot." + robot.name +
+                     "] arrivals: is missing; [input] order = arrival needs it for each robot");
 }
 
 void SlamConfig::makeStages(Faults& faults) {

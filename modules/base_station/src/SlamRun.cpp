@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "Delivery.h"
 #include "FrontEndTeam.h"
+#include "TeamArrivals.h"
 #include "lamp/base_station/BaseStation.h"
 #include "lamp/base_station/RunWriter.h"
 #include "lamp/core/Progress.h"
@@ -27,11 +29,11 @@ constexpr size_t kQueuedMessages = 16;
 /** Reads the input and runs the front ends on a thread of its own, ahead of the base station. */
 class FrontEndThread {
  public:
-  FrontEndThread(RawlogSource& source, FrontEndTeam& team, InProcessQueue& queue,
-                 const std::atomic<bool>& interrupted)
-      : queue_(queue), thread_([this, &source, &team, &interrupted] {
+  FrontEndThread(const SlamConfig& config, RawlogSource& source, FrontEndTeam& team,
+                 InProcessQueue& queue, const std::atomic<bool>& interrupted)
+      : queue_(queue), thread_([this, &config, &source, &team, &interrupted] {
           try {
-            run(source, team, interrupted);
+            run(config, source, team, interrupted);
           } catch (...) {
             failure_ = std::current_exception();
           }
@@ -53,9 +55,11 @@ class FrontEndThread {
   }
 
  private:
-  void run(RawlogSource& source, FrontEndTeam& team, const std::atomic<bool>& interrupted) {
+  void run(const SlamConfig& config, RawlogSource& source, FrontEndTeam& team,
+           const std::atomic<bool>& interrupted) {
     while (!interrupted) {
       const auto observation = source.next();
+      requireArrivals(config, source.robots());  // robots appear as they are read
       if (!observation || !team.observe(*observation)) break;
       progress_ = source.progress();
     }
@@ -91,7 +95,7 @@ std::string explainEmptyRun(const std::vector<FrontEndReport>& reports, const Ro
 void makePathsAbsolute(SlamConfig& config, const std::vector<std::string>& rawlogs) {
   namespace fs = std::filesystem;
   for (RobotOptions& robot : config.robots)
-    for (std::string* path : {&robot.rawlog, &robot.odometry_file})
+    for (std::string* path : {&robot.rawlog, &robot.odometry_file, &robot.arrivals})
       if (!path->empty()) *path = fs::absolute(*path).lexically_normal().string();
   for (const std::string& rawlog : rawlogs)
     config.input.rawlogs.push_back(fs::absolute(rawlog).lexically_normal().string());
@@ -114,6 +118,9 @@ void SlamRun::warn(const std::vector<std::string>& warnings, const std::string& 
 std::string SlamRun::run() {
   RobotTable robots;
   RawlogSource source(config_.input.rawlogs, config_.robots, robots);
+  requireArrivals(config_, source.robots());
+  InProcessQueue queue(kQueuedMessages);
+  Delivery delivery(config_, queue);
   const RunFolder folder = RunFolder::create(job_.out);
   const tbb::global_control thread_limit(tbb::global_control::max_allowed_parallelism,
                                          static_cast<size_t>(job_.threads));
@@ -122,18 +129,18 @@ std::string SlamRun::run() {
   BaseStation base_station(config_, timer);
   base_station.setMinLoggingLevel(getMinLoggingLevel());
 
-  InProcessQueue queue(kQueuedMessages);
   FrontEndTeam team(config_, queue);
   {
     Progress progress;
     const CTimeLoggerEntry timing(timer, "run");
-    FrontEndThread front_end(source, team, queue, interrupted_);
+    FrontEndThread front_end(config_, source, team, queue, interrupted_);
     tbb::task_arena arena(job_.threads);
     arena.execute([&] {
-      while (const auto message = queue.receive()) {
+      while (const auto message = interrupted_ ? std::nullopt : delivery.receive()) {
         std::visit([&](const auto& content) { base_station.receive(content); }, *message);
-        progress.show(front_end.progress(), describeLoops(base_station));
+        progress.show(front_end.progress() * delivery.share(), describeLoops(base_station));
       }
+      queue.closeReceiver();  // after Ctrl-C the front end may be waiting for room in the queue
       base_station.finish(interrupted_);
     });
     front_end.join();

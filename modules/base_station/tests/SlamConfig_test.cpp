@@ -133,15 +133,16 @@ TEST(SlamConfig, InstancesOfOneClassHaveTheirOwnSections) {
 TEST(SlamConfig, TextReadsBackToTheSameText) {
   const std::string changed =
       "[run]\nseed = 77\n"
-      "[input]\nrawlogs = /data/one.rawlog, /data/two words.rawlog\n"
+      "[input]\nrawlogs = /data/one.rawlog, /data/two words.rawlog\norder = arrival\n"
       "[pipeline]\ncandidates =\nverifiers = GuessDeviation, OverlapResidual, "
       "OverlapResidual@strict\ninter_robot_loops = no\nexporters = Ply\n"
-      "[frontend]\nkey_node_distance_m = 1.2345678901234567\n"
+      "[frontend]\nkeyed = true\nkey_node_distance_m = 1.2345678901234567\n"
       "[base_station]\noptimize_growth = 0.1\n"
       "[lamp::OverlapResidual@strict]\nmin_overlap = 0.8\n"
       "[lamp::Gicp]\nkernel_m = 0.123\n"
       "[robot.husky-1]\nrawlog = husky.rawlog\nstart_pose = [1 2 3 90 0 -0.5]\nkey = h\n"
-      "[robot.spot]\nlidar_labels = front, rear\n";
+      "arrivals = husky.arrivals.csv\n"
+      "[robot.spot]\nlidar_labels = front, rear\narrivals = spot.csv\n";
   for (const std::string& ini : {std::string(), changed}) {
     const std::string text = configFrom(ini).text();
     EXPECT_EQ(configFrom(text).text(), text);
@@ -149,12 +150,15 @@ TEST(SlamConfig, TextReadsBackToTheSameText) {
   const SlamConfig config = configFrom(configFrom(changed).text());
   EXPECT_EQ(config.run.seed, 77);
   EXPECT_THAT(config.input.rawlogs, ElementsAre("/data/one.rawlog", "/data/two words.rawlog"));
+  EXPECT_TRUE(config.input.inArrivalOrder());
   EXPECT_THAT(config.stages.candidates, IsEmpty());
   EXPECT_FALSE(config.pipeline.inter_robot_loops);
+  EXPECT_TRUE(config.frontend.keyed);
   EXPECT_EQ(config.frontend.key_node_distance_m, 1.2345678901234567);
   ASSERT_EQ(config.robots.size(), 2u);
   EXPECT_EQ(config.robots[0].name, "husky-1");
   EXPECT_THAT(config.robots[0].start_pose, ElementsAre(1, 2, 3, 90, 0, -0.5));
+  EXPECT_EQ(config.robots[0].arrivals, "husky.arrivals.csv");
   EXPECT_THAT(config.robots[1].lidar_labels, ElementsAre("front", "rear"));
   const auto strict = std::dynamic_pointer_cast<OverlapResidual>(config.stages.verifiers[2]);
   EXPECT_EQ(strict->options.min_overlap, 0.8);
@@ -191,6 +195,18 @@ TEST(SlamConfig, AKeyIsOneFreeLetter) {
   EXPECT_THAT(faultsOf("[robot.not a name]\n"), HasSubstr("test.ini:1"));
 }
 
+TEST(SlamConfig, TheOrderOfArrivalNeedsTheArrivalsOfEachRobot) {
+  EXPECT_THAT(faultsOf("[input]\norder = late\n"), HasSubstr("test.ini:2: [input] order = late"));
+  EXPECT_EQ(faultsOf("[input]\norder = recorded\n[robot.A]\n"), "");
+  EXPECT_THAT(faultsOf("[run]\n[input]\norder = arrival\n"),
+              AllOf(HasSubstr("test.ini:3"), HasSubstr("arrivals = FILE.csv for each robot")));
+  EXPECT_THAT(
+      faultsOf("[input]\norder = arrival\n[robot.A]\n[robot.B]\narrivals = b.csv\n"
+               "[robot.C]\n"),
+      AllOf(HasSubstr("test.ini:3: [robot.A] arrivals: is missing"),
+            HasSubstr("test.ini:6: [robot.C] arrivals: is missing"), Not(HasSubstr("robot.B"))));
+}
+
 TEST(SlamConfig, APluginThatDoesNotLoadIsNamed) {
   try {
     configFrom("[plugins]\nload = libnowhere_to_be_found.so\n");
@@ -218,6 +234,11 @@ TEST(SlamConfig, TheInisOfTheProjectAreRight) {
     ++files;
   }
   EXPECT_GT(files, 0u);
+}
+
+TEST(SlamConfig, TheDefaultIniHoldsTheDefaults) {
+  EXPECT_THAT(readTextFile(LAMP_SOURCE_DIR "/ini/default.ini"),
+              testing::EndsWith("\n\n" + configFrom("").text()));
 }
 
 TEST(Parameters, ThePageIsUpToDate) {

@@ -1,6 +1,7 @@
 #include "lamp/frontend/FrontEnd.h"
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace lamp {
@@ -31,9 +32,25 @@ void append(const Scan& scan, const Pose3& target_T_scan, Scan& target) {
   }
 }
 
+/** Options in effect: keyed input is taken as it is. */
+FrontEndOptions inEffect(FrontEndOptions options) {
+  if (options.keyed) {
+    options.scan.min_range_m = 0;
+    options.scan.max_range_m = std::numeric_limits<double>::infinity();
+  }
+  return options;
+}
+
+std::unique_ptr<ScanAssembler> makeAssembler(const FrontEndOptions& options) {
+  if (options.keyed) return std::make_unique<SameStampScans>();
+  return std::make_unique<ReferenceLidarScans>(options.merge_window_s);
+}
+
 }  // namespace
 
 void FrontEndOptions::visit(OptionVisitor& v) {
+  v("keyed", keyed,
+    "recordings hold key nodes: the clouds of one stamp are one, and stay as they are");
   v("key_node_distance_m", key_node_distance_m, "m", "a new key node after this motion", kPositive);
   v("key_node_angle_deg", key_node_angle_deg, "deg", "a new key node after this turning",
     kPositive);
@@ -47,32 +64,25 @@ void FrontEndOptions::visit(OptionVisitor& v) {
 FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
                    std::shared_ptr<OdometrySource> odometry, std::optional<StartPrior> prior)
     : robot_(robot),
-      options_(options),
+      options_(inEffect(options)),
       odometry_(std::move(odometry)),
       prior_(std::move(prior)),
+      assembler_(makeAssembler(options)),
       voxel_filter_(options.voxel) {}
 
 std::vector<KeyframePacket> FrontEnd::observe(const InputObservation& observation) {
   odometry_->observe(observation);
-  if (isLidar(*observation.observation)) takeLidar(observation);
+  if (auto scan = assembler_->observe(observation)) enqueue(std::move(*scan));
   return processCoveredScans();
 }
 
-void FrontEnd::takeLidar(const InputObservation& observation) {
-  if (!reference_lidar_) reference_lidar_ = observation.label;
-  if (observation.label != *reference_lidar_) {
-    latest_other_[observation.label] = observation;
-    return;
-  }
+void FrontEnd::enqueue(ScanParts scan) {
   ++counts_.scans;
   if (waiting_.size() == kMaxWaitingScans) {
     waiting_.pop_front();
     ++counts_.without_odometry;
   }
-  WaitingScan waiting{observation.stamp, observation, {}};
-  for (const auto& [label, other] : latest_other_)
-    if (observation.stamp - other.stamp <= options_.merge_window_s) waiting.others.push_back(other);
-  waiting_.push_back(std::move(waiting));
+  waiting_.push_back(std::move(scan));
 }
 
 std::vector<KeyframePacket> FrontEnd::processCoveredScans() {
@@ -85,11 +95,12 @@ std::vector<KeyframePacket> FrontEnd::processCoveredScans() {
 }
 
 std::vector<KeyframePacket> FrontEnd::finish() {
+  if (auto scan = assembler_->finish()) enqueue(std::move(*scan));
   std::vector<KeyframePacket> packets;
-  for (const WaitingScan& waiting : waiting_) {
-    if (!odometry_->covers(waiting.stamp - kMaxExtrapolationS))
+  for (const ScanParts& parts : waiting_) {
+    if (!odometry_->covers(parts.stamp - kMaxExtrapolationS))
       ++counts_.without_odometry;
-    else if (auto packet = processScan(waiting))
+    else if (auto packet = processScan(parts))
       packets.push_back(std::move(*packet));
   }
   waiting_.clear();
@@ -100,34 +111,39 @@ RobotEnd FrontEnd::end() {
   return {robot_, std::move(passed_scans_)};
 }
 
-std::optional<KeyframePacket> FrontEnd::processScan(const WaitingScan& waiting) {
-  const Pose3 odom_T_base = odometry_->poseAt(waiting.stamp);
+std::optional<KeyframePacket> FrontEnd::processScan(const ScanParts& parts) {
+  const Pose3 odom_T_base = odometry_->poseAt(parts.stamp);
   if (last_scan_pose_) path_since_key_.add(last_scan_pose_->inverse() * odom_T_base);
   last_scan_pose_ = odom_T_base;
 
   if (isKeyNode(odom_T_base)) {
-    Scan scan = voxel_filter_.filter(mergedScan(waiting, odom_T_base));
-    if (!scan.points.empty()) return makePacket(waiting.stamp, odom_T_base, std::move(scan));
+    Scan scan = keyedScan(parts, odom_T_base);
+    if (!scan.points.empty()) return makePacket(parts.stamp, odom_T_base, std::move(scan));
     ++counts_.empty_scans;
   }
-  passed_scans_.push_back({waiting.stamp, odom_T_base});
+  passed_scans_.push_back({parts.stamp, odom_T_base});
   return std::nullopt;
 }
 
 /** Paper II-B: a new key node when the robot has moved or turned enough. */
 bool FrontEnd::isKeyNode(const Pose3& odom_T_base) const {
-  if (!last_key_) return true;
+  if (!last_key_ || options_.keyed) return true;
   const Pose3 motion = last_key_->pose.inverse() * odom_T_base;
   return motion.translation().norm() >= options_.key_node_distance_m ||
          rotationAngle(motion) * 180.0 / M_PI >= options_.key_node_angle_deg;
 }
 
-Scan FrontEnd::mergedScan(const WaitingScan& waiting, const Pose3& odom_T_base) {
+/** All parts in the base frame at the scan's stamp, filtered unless they were already. */
+Scan FrontEnd::keyedScan(const ScanParts& parts, const Pose3& odom_T_base) {
   Scan merged;
-  appendScan(waiting.observation, Pose3::Identity(), merged);
-  for (const InputObservation& other : waiting.others)
-    appendScan(other, odom_T_base.inverse() * odometry_->poseAt(other.stamp), merged);
-  return merged;
+  for (const InputObservation& part : parts.observations) {
+    const bool same_time = part.stamp == parts.stamp;
+    appendScan(part,
+               same_time ? Pose3::Identity()
+                         : Pose3(odom_T_base.inverse() * odometry_->poseAt(part.stamp)),
+               merged);
+  }
+  return options_.keyed ? merged : voxel_filter_.filter(merged);
 }
 
 void FrontEnd::appendScan(const InputObservation& observation, const Pose3& base_T_scan,
@@ -167,6 +183,7 @@ Matrix6d FrontEnd::motionCovariance(double stamp) {
 
 std::vector<std::string> FrontEnd::warnings() const {
   std::vector<std::string> result = odometry_->warnings();
+  for (std::string& warning : assembler_->warnings()) result.push_back(std::move(warning));
   if (counts_.without_odometry > 0)
     result.push_back(std::to_string(counts_.without_odometry) + " of " +
                      std::to_string(counts_.scans) +

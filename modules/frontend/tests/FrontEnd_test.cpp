@@ -333,5 +333,99 @@ TEST(FrontEnd, IsNotPlanarIfAnotherLidarSeesMore) {
   EXPECT_FALSE(drive.packets[1].planar);
 }
 
+FrontEndOptions keyedOptions() {
+  FrontEndOptions options;
+  options.keyed = true;
+  return options;
+}
+
+TEST(FrontEndKeyed, EveryStampIsAKeyNodeWithAllItsClouds) {
+  Drive drive(keyedOptions());
+  for (int i = 0; i < 3; ++i) {
+    const double t = kStart + i;
+    const std::vector<InputObservation> observations = {
+        cloud(t, {{4, 0, 0}}, "front", {0.3, 0, 0.5}), wheels(t, 0.1 * i),
+        cloud(t, {{-6, 1, 0}, {-7, 1, 0}}, "rear", {-0.4, 0, 0.6})};
+    for (int k = 0; k < 3; ++k) drive.observe(observations[(i + k) % 3]);  // in any order
+  }
+  drive.finish();
+  ASSERT_EQ(drive.packets.size(), 3u) << "though the robot hardly moves";
+  for (size_t i = 0; i < 3; ++i) {
+    const KeyframePacket& packet = drive.packets[i];
+    EXPECT_NEAR(packet.stamp, kStart + static_cast<double>(i), 1e-6);
+    EXPECT_NEAR(packet.odom_T_base.translation().x(), 0.1 * static_cast<double>(i), 1e-6);
+    EXPECT_THAT(packet.passed_scans, IsEmpty());
+    ASSERT_EQ(packet.scan->size(), 3u);
+    ASSERT_EQ(packet.scan->sensors.size(), 2u);
+    const size_t front = packet.scan->sensors[0].label == "front" ? 0 : 1;
+    const SensorOrigin &a = packet.scan->sensors[front], &b = packet.scan->sensors[1 - front];
+    EXPECT_TRUE(a.position.isApprox(Eigen::Vector3d(0.3, 0, 0.5), 1e-6));
+    EXPECT_EQ(b.label, "rear");
+    EXPECT_TRUE(b.position.isApprox(Eigen::Vector3d(-0.4, 0, 0.6), 1e-6));
+    EXPECT_EQ(std::count(packet.scan->sensor.begin(), packet.scan->sensor.end(), front), 1);
+  }
+  EXPECT_THAT(drive.end.passed_scans, IsEmpty());
+  EXPECT_EQ(drive.front_end.counts().scans, 3u);
+  EXPECT_THAT(drive.front_end.warnings(), IsEmpty());
+}
+
+TEST(FrontEndKeyed, PointsStayAsTheyAre) {
+  FrontEndOptions options = keyedOptions();
+  options.scan.min_range_m = 1;
+  options.scan.max_range_m = 10;
+  options.voxel.target_points = 1;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 500; ++i) points.emplace_back(0.01f * static_cast<float>(i + 1), 0.5f, 0.1f);
+  points.emplace_back(50.0f, 0.0f, 0.0f);
+  const float nan = std::nanf("");
+  std::vector<Eigen::Vector3f> recorded = points;
+  recorded.emplace_back(nan, 1.0f, 1.0f);
+  Drive drive(options);
+  drive.observe(wheels(kStart, 0));
+  drive.observe(cloud(kStart, recorded));
+  drive.finish();
+  ASSERT_EQ(drive.packets.size(), 1u);
+  EXPECT_EQ(drive.packets[0].scan->points, points) << "all but what is no number";
+}
+
+TEST(FrontEndKeyed, AStampWithoutPointsIsNoKeyNode) {
+  Drive drive(keyedOptions());
+  for (int i = 0; i < 3; ++i) {
+    drive.observe(wheels(kStart + i, 3.0 * i));
+    drive.observe(cloud(kStart + i, {}, "front"));
+    drive.observe(
+        cloud(kStart + i, i == 1 ? std::vector<Eigen::Vector3f>{} : somePoints(), "rear"));
+  }
+  drive.finish();
+  ASSERT_EQ(drive.packets.size(), 2u);
+  EXPECT_EQ(drive.packets[1].passed_scans.size(), 1u);
+  EXPECT_EQ(drive.packets[1].scan->sensors.size(), 2u) << "an empty cloud keeps its sensor";
+  EXPECT_THAT(drive.front_end.warnings(), ElementsAre(HasSubstr("1 scans had no usable point")));
+}
+
+TEST(FrontEndKeyed, TheCovarianceIsTheRecordedOneOrTheMotionModels) {
+  const Matrix6d step = 1e-3 * Matrix6d::Identity();
+  const Pose3 motion = planarPose(2.5, 0, 0.05);
+  const auto edge = [&](bool growing) {
+    Drive drive(keyedOptions());
+    Pose3 pose = Pose3::Identity();
+    Matrix6d covariance = 1e-6 * Matrix6d::Identity();
+    for (int i = 0; i < 2; ++i) {
+      drive.observe(cloud(kStart + i, somePoints()));
+      drive.observe(robotPose(kStart + i, pose, growing ? covariance : Matrix6d::Zero()));
+      pose = pose * motion;
+      covariance = composeCovariance(covariance, motion, step);
+    }
+    drive.finish();
+    EXPECT_EQ(drive.packets.size(), 2u);
+    EXPECT_THAT(drive.front_end.warnings(), IsEmpty()) << "zero is recorded where it is unknown";
+    return drive.packets.back().odometry->covariance;
+  };
+  EXPECT_LT((edge(true) - step).norm(), 1e-5 * step.norm());
+  Path path;
+  path.add(motion);
+  EXPECT_LT((edge(false) - odometryCovariance(path, {})).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace lamp

@@ -22,6 +22,8 @@ void RobotOptions::visit(OptionVisitor& v) {
   v("odometry_label", odometry_label,
     "sensor label of the odometry to use; empty for the first odometry in the recording");
   v("lidar_labels", lidar_labels, "sensor labels of the lidars to use; empty for every lidar");
+  v("arrivals", arrivals,
+    "CSV file with columns stamp and arrival: when this robot's key nodes reach the base station");
 }
 
 }  // namespace lamp

@@ -1,20 +1,15 @@
 #include "lamp/maps/KeyframeRawlog.h"
 
 #include <mrpt/core/Clock.h>
-#include <mrpt/io/CMemoryStream.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
-#include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "GzFile.h"
 #include "MapPoints.h"
-#include "lamp/core/Files.h"
+#include "lamp/core/RawlogFile.h"
+#include "lamp/core/ScanObservation.h"
 
 namespace lamp {
 
@@ -49,54 +44,18 @@ mrpt::obs::CObservationRobotPose odometryOf(const KeyframePacket& packet,
   return odometry;
 }
 
-mrpt::maps::CPointsMap::Ptr pointsOf(const Scan& scan, uint8_t sensor) {
-  const Eigen::Vector3d origin = scan.sensors[sensor].position;
-  const auto with_intensity = scan.hasIntensity() ? mrpt::maps::CPointsMapXYZI::Create() : nullptr;
-  const mrpt::maps::CPointsMap::Ptr points =
-      with_intensity ? mrpt::maps::CPointsMap::Ptr(with_intensity)
-                     : mrpt::maps::CPointsMap::Ptr(mrpt::maps::CSimplePointsMap::Create());
-  points->reserve(std::count(scan.sensor.begin(), scan.sensor.end(), sensor));
-  for (size_t i = 0; i < scan.size(); ++i) {
-    if (scan.sensor[i] != sensor) continue;
-    const Eigen::Vector3f p = (scan.points[i].cast<double>() - origin).cast<float>();
-    points->insertPointFast(p.x(), p.y(), p.z());
-    if (with_intensity) with_intensity->setPointIntensity(points->size() - 1, scan.intensity[i]);
-  }
-  return points;
-}
-
-mrpt::obs::CObservationPointCloud cloudOf(const KeyframePacket& packet, uint8_t sensor,
-                                          const std::string& robot) {
-  const SensorOrigin& origin = packet.scan->sensors[sensor];
-  mrpt::obs::CObservationPointCloud cloud;
-  cloud.sensorLabel = robot + "/" + (origin.label.empty() ? "lidar" : origin.label);
-  cloud.timestamp = mrpt::Clock::fromDouble(packet.stamp);
-  cloud.sensorPose = mrpt::poses::CPose3D::FromTranslation(origin.position.x(), origin.position.y(),
-                                                           origin.position.z());
-  cloud.pointcloud = pointsOf(*packet.scan, sensor);
-  return cloud;
-}
-
-void writeObject(const mrpt::serialization::CSerializable& object, GzFile& file) {
-  mrpt::io::CMemoryStream memory;
-  mrpt::serialization::archiveFrom(memory) << object;
-  file.write(memory.getRawBufferData(), memory.getTotalBytesCount());
-}
-
 }  // namespace
 
 void writeKeyframeRawlog(const std::string& path, const std::string& robot,
                          const std::vector<KeyframePacket>& packets) {
   for (const KeyframePacket& packet : packets) checkPacket(packet, robot);
-  writeAtomically(path, [&](const std::string& temporary) {
-    GzFile file(temporary, path);
+  writeRawlog(path, [&](const RawlogSink& sink) {
     for (const KeyframePacket* packet : inStampOrder(packets)) {
-      writeObject(odometryOf(*packet, robot), file);
+      sink(odometryOf(*packet, robot));
       if (!packet->scan) continue;
       for (size_t sensor = 0; sensor < packet->scan->sensors.size(); ++sensor)
-        writeObject(cloudOf(*packet, static_cast<uint8_t>(sensor), robot), file);
+        sink(scanObservation(*packet->scan, sensor, robot, packet->stamp));
     }
-    file.close();
   });
 }
 

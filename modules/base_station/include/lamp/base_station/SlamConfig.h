@@ -42,6 +42,10 @@ struct PluginOptions {
 
 struct InputOptions {
   std::vector<std::string> rawlogs;
+  std::string order = "recorded";
+
+  /** Whether key nodes come as the radio link delivers them, by the robots' arrivals files. */
+  bool inArrivalOrder() const { return order == "arrival"; }
 
   void visit(OptionVisitor& v);
 };
@@ -91,6 +95,7 @@ class SlamConfig {
 
  private:
   void readRobots(Faults& faults);
+  void checkArrivals(Faults& faults) const;
   void makeStages(Faults& faults);
   void checkSections(Faults& faults) const;
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,12 +9,14 @@
 #include "lamp/core/KeyframePacket.h"
 #include "lamp/frontend/MotionModel.h"
 #include "lamp/frontend/OdometrySource.h"
+#include "lamp/frontend/ScanAssembler.h"
 #include "lamp/input/ScanFromObservation.h"
 #include "lamp/scans/VoxelFilter.h"
 
 namespace lamp {
 
 struct FrontEndOptions {
+  bool keyed = false;
   double key_node_distance_m = 2.0;
   double key_node_angle_deg = 30.0;
   double merge_window_s = 0.2;
@@ -27,7 +28,10 @@ struct FrontEndOptions {
 };
 
 /** The single-robot front end (paper II-B): turns one robot's observations into a sparse pose graph
- * segment with keyed scans. */
+ * segment with keyed scans.
+ *
+ * Input that is keyed already passes unchanged: each lidar stamp is a key node, and its points are
+ * neither filtered nor cut at the range limits, which whoever keyed them has done. */
 class FrontEnd {
  public:
   FrontEnd(RobotId robot, const FrontEndOptions& options, std::shared_ptr<OdometrySource> odometry,
@@ -41,7 +45,7 @@ class FrontEnd {
   RobotEnd end();
 
   struct Counts {
-    size_t scans = 0;  ///< of the reference lidar
+    size_t scans = 0;  ///< of the reference lidar, or keyed scans
     size_t key_nodes = 0;
     size_t empty_scans = 0;       ///< no usable point where a key node was due
     size_t without_odometry = 0;  ///< scans that no odometry covers
@@ -51,17 +55,11 @@ class FrontEnd {
   std::vector<std::string> warnings() const;
 
  private:
-  struct WaitingScan {
-    double stamp;
-    InputObservation observation;
-    std::vector<InputObservation> others;  ///< the latest scan of each other lidar
-  };
-
-  void takeLidar(const InputObservation& observation);
+  void enqueue(ScanParts scan);
   std::vector<KeyframePacket> processCoveredScans();
-  std::optional<KeyframePacket> processScan(const WaitingScan& waiting);
+  std::optional<KeyframePacket> processScan(const ScanParts& parts);
   bool isKeyNode(const Pose3& odom_T_base) const;
-  Scan mergedScan(const WaitingScan& waiting, const Pose3& odom_T_base);
+  Scan keyedScan(const ScanParts& parts, const Pose3& odom_T_base);
   void appendScan(const InputObservation& observation, const Pose3& base_T_scan, Scan& merged);
   KeyframePacket makePacket(double stamp, const Pose3& odom_T_base, Scan scan);
   Matrix6d motionCovariance(double stamp);
@@ -70,11 +68,10 @@ class FrontEnd {
   const FrontEndOptions options_;
   const std::shared_ptr<OdometrySource> odometry_;
   const std::optional<StartPrior> prior_;
+  const std::unique_ptr<ScanAssembler> assembler_;
   AdaptiveVoxelFilter voxel_filter_;
 
-  std::optional<std::string> reference_lidar_;
-  std::map<std::string, InputObservation> latest_other_;
-  std::deque<WaitingScan> waiting_;
+  std::deque<ScanParts> waiting_;
 
   std::optional<StampedPose> last_key_;
   std::optional<Pose3> last_scan_pose_;

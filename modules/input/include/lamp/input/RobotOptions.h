@@ -19,6 +19,7 @@ struct RobotOptions {
   std::string odometry_file;
   std::string odometry_label;
   std::vector<std::string> lidar_labels;
+  std::string arrivals;
 
   void visit(OptionVisitor& v);
 };

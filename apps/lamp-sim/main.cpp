@@ -1,0 +1,3 @@
+#include "lamp/simulation/SimApp.h"
+
+int main(int argc, char** argv) { return lamp::simApp(argc, argv); }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "lamp/core/KeyedScan.h"
+#include "lamp/simulation/Mission.h"
+
+namespace lamp {
+
+/** Which triangles of a mesh any scan has hit. */
+using SeenTriangles = std::vector<std::atomic<bool>>;
+
+/** What a key node sends (paper II-B): all lidars' sweeps at its stamp, deskewed with odometry,
+ * merged, and thinned to one point a voxel; of a rotating mount, the sweeps of the last
+ * `rotation_s`. Base frame. Marks what was seen. Safe to call from many threads. */
+Scan keyedScan(const MissionRobot& robot, size_t key_node, const KeyedOptions& options,
+               SeenTriangles& seen);
+
+/** The first point of each voxel, for the smallest voxels of 0.1 m and more that leave at most
+ * `max_points`. */
+Scan thinned(const Scan& scan, size_t max_points);
+
+/** Marks the surfaces that a sweep hit. */
+void markSeen(const LidarSweep& sweep, SeenTriangles& seen);
+
+/** Seed of a lidar of a robot. */
+uint64_t lidarSeed(const MissionRobot& robot, size_t lidar);
+
+}  // namespace lamp

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "lamp/simulation/Lidar.h"
+
+namespace lamp {
+
+/** Density of returns from dust at a stamp, per metre of a ray: zero but for clouds that rise and
+ * settle within a time patch. */
+double dustPerMetre(const LidarOptions& options, double stamp, uint64_t seed);
+
+}  // namespace lamp

@@ -1,0 +1,103 @@
+#include "lamp/simulation/KeyedScans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace lamp {
+
+namespace {
+
+/** The stamps of the sweeps that a lidar contributes to a keyed scan. */
+std::vector<double> sweepStamps(const MissionRobot& robot, const Lidar& lidar, double stamp,
+                                const KeyedOptions& options) {
+  if (!lidar.rotates()) return {stamp};
+  const double period = lidar.pattern().duration();
+  std::vector<double> stamps;
+  for (int i = static_cast<int>(options.rotation_s / period) - 1; i >= 0; --i)
+    if (stamp - i * period >= robot.truth.begin()) stamps.push_back(stamp - i * period);
+  return stamps;
+}
+
+void append(const LidarSweep& sweep, const Lidar& lidar, const TrajectoryInterpolator& odometry,
+            double stamp, Scan& scan) {
+  const auto sensor = static_cast<uint8_t>(scan.sensors.size() - 1);
+  const std::vector<Eigen::Vector3f> points = deskew(sweep, lidar, odometry, stamp);
+  scan.points.insert(scan.points.end(), points.begin(), points.end());
+  for (const LidarReturn& found : sweep.returns) scan.intensity.push_back(found.intensity);
+  scan.sensor.resize(scan.points.size(), sensor);
+}
+
+/** Where the sensor was in the middle of its sweeps, seen from the base at the key node. */
+Eigen::Vector3d originOf(const Lidar& lidar, const std::vector<double>& stamps,
+                         const TrajectoryInterpolator& odometry, double stamp) {
+  const double middle = 0.5 * (stamps.front() + stamps.back() + lidar.pattern().duration());
+  return odometry.at(stamp).inverse() * odometry.at(middle) *
+         lidar.baseTSensor(middle).translation();
+}
+
+uint64_t voxelKey(const Eigen::Vector3f& point, float leaf_m, uint8_t sensor) {
+  const auto part = [&](float value) {
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(value / leaf_m)) + (1 << 18)) &
+           0x7ffff;
+  };
+  return (part(point.x()) << 45) | (part(point.y()) << 26) | (part(point.z()) << 7) | sensor;
+}
+
+std::vector<size_t> firstOfVoxels(const Scan& scan, float leaf_m) {
+  std::unordered_set<uint64_t> taken;
+  std::vector<size_t> kept;
+  for (size_t i = 0; i < scan.size(); ++i)
+    if (taken.insert(voxelKey(scan.points[i], leaf_m, scan.sensor[i])).second) kept.push_back(i);
+  return kept;
+}
+
+}  // namespace
+
+uint64_t lidarSeed(const MissionRobot& robot, size_t lidar) {
+  return mixSeeds({robot.seed, 6, lidar});
+}
+
+void markSeen(const LidarSweep& sweep, SeenTriangles& seen) {
+  for (const LidarReturn& found : sweep.returns)
+    if (!found.fromDust() && !seen[found.triangle].load(std::memory_order_relaxed))
+      seen[found.triangle].store(true, std::memory_order_relaxed);
+}
+
+Scan thinned(const Scan& scan, size_t max_points) {
+  float leaf_m = 0.1f;
+  std::vector<size_t> kept = firstOfVoxels(scan, leaf_m);
+  while (kept.size() > max_points) {
+    // Points on surfaces: their number falls with the square of the leaf.
+    leaf_m *= 1.02f * std::sqrt(static_cast<float>(kept.size()) / static_cast<float>(max_points));
+    kept = firstOfVoxels(scan, leaf_m);
+  }
+  Scan result;
+  result.sensors = scan.sensors;
+  for (const size_t i : kept) {
+    result.points.push_back(scan.points[i]);
+    result.intensity.push_back(scan.intensity[i]);
+    result.sensor.push_back(scan.sensor[i]);
+  }
+  return result;
+}
+
+Scan keyedScan(const MissionRobot& robot, size_t key_node, const KeyedOptions& options,
+               SeenTriangles& seen) {
+  const double stamp = robot.stampOf(key_node);
+  const TrajectoryInterpolator odometry = robot.odometry.interpolator();
+  Scan scan;
+  for (size_t i = 0; i < robot.lidars.size(); ++i) {
+    const Lidar& lidar = robot.lidars[i];
+    const std::vector<double> stamps = sweepStamps(robot, lidar, stamp, options);
+    scan.sensors.push_back({robot.lidar_names[i], originOf(lidar, stamps, odometry, stamp)});
+    for (const double begin : stamps) {
+      const LidarSweep sweep = lidar.sweep(robot.truth, begin, lidarSeed(robot, i));
+      markSeen(sweep, seen);
+      append(sweep, lidar, odometry, stamp, scan);
+    }
+  }
+  return thinned(scan, static_cast<size_t>(options.max_points));
+}
+
+}  // namespace lamp
