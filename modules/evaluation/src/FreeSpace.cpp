@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector3f;
 using Eigen::Vector3i;
 
-constexpr double kMostVoxels = 8e9;   ///< two bits each: 2 GB
-constexpr double kTallestBase = 1.0;  ///< metres from the ground contact to certainly free space
+constexpr double kMostVoxels = 8e9;  ///< two bits each: 2 GB
+constexpr double kNearGround = 0.4;  ///< metres; less than any robot is high
 
 /** Voxels of a box, with one bit each for `surface` and for `reached`. */
 class VoxelBox {
@@ -75,13 +75,16 @@ VoxelBox boxOfSeen(const SurfaceSamples& surface, double voxel_m) {
   return VoxelBox(min, max, voxel_m);
 }
 
-/** The voxel of a robot, or, where its base touches the ground, the first one without surface above
- * it. */
+/** The voxel of a robot's base. A base near the ground may lie within or below its samples, and
+ * outside is not free: then the first voxel above them. */
 Vector3i startOf(const Vector3f& position, const VoxelBox& box, double voxel_m) {
-  Vector3i cell = box.cellOf(position);
-  for (int up = 0; up * voxel_m <= kTallestBase; ++up, ++cell.z())
-    if (box.contains(cell) && !box.isSurface(cell)) break;
-  return cell;
+  const Vector3i base = box.cellOf(position);
+  const int reach = static_cast<int>(std::ceil(kNearGround / voxel_m));
+  for (int up = reach; up >= -reach; --up) {
+    const Vector3i cell = base + Vector3i(0, 0, up);
+    if (box.contains(cell) && box.isSurface(cell)) return cell + Vector3i(0, 0, 1);
+  }
+  return base;
 }
 
 void flood(std::vector<Vector3i> front, VoxelBox& box) {

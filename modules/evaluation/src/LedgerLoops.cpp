@@ -11,7 +11,7 @@ namespace lamp {
 
 namespace {
 
-using KeyNodes = std::map<std::string, KeyNode>;  ///< by `robot:index`
+using LedgerNodes = std::map<std::string, LedgerNode>;  ///< by `robot:index`
 
 /** Numbers and words of one row of a table, by column. */
 class Row {
@@ -38,9 +38,9 @@ class Row {
   const std::string& path_;
 };
 
-KeyNodes readKeyNodes(const std::string& path) {
+LedgerNodes readKeyNodes(const std::string& path) {
   const CsvTable table = CsvTable::fromFile(path);
-  KeyNodes nodes;
+  LedgerNodes nodes;
   for (size_t i = 0; i < table.rows.size(); ++i) {
     const Row row(table, i, path);
     nodes[row.text("robot") + ":" + row.text("index")] = {
@@ -49,13 +49,13 @@ KeyNodes readKeyNodes(const std::string& path) {
   return nodes;
 }
 
-const KeyNode& nodeOf(const Row& row, const char* column, const KeyNodes& nodes) {
+const LedgerNode& nodeOf(const Row& row, const char* column, const LedgerNodes& nodes) {
   const auto found = nodes.find(row.text(column));
   if (found == nodes.end()) row.fail("key node '" + row.text(column) + "' is not in graph_ids.csv");
   return found->second;
 }
 
-LedgerLoop readLoop(const Row& row, const KeyNodes& nodes) {
+LedgerLoop readLoop(const Row& row, const LedgerNodes& nodes) {
   LedgerLoop loop;
   loop.from = nodeOf(row, "from", nodes);
   loop.to = nodeOf(row, "to", nodes);
@@ -88,7 +88,7 @@ std::optional<Matrix6d> informationOf(const LedgerLoop& loop, const G2oEdges& ed
 std::vector<LedgerLoop> readLedger(const RunFolder& run) {
   const std::string path = run.loops();
   const CsvTable table = CsvTable::fromFile(path);
-  const KeyNodes nodes = readKeyNodes(run.graphIds());
+  const LedgerNodes nodes = readKeyNodes(run.graphIds());
   const G2oEdges edges = readG2oEdges(run.graphG2o());
   std::map<std::string, std::pair<double, LedgerLoop>> last_attempts;  // by loop_id
   std::vector<std::string> order;

@@ -20,17 +20,17 @@ struct TrueNode {
 };
 using TrueNodes = std::map<uint32_t, TrueNode>;  ///< by graph id
 
-std::vector<KeyNode> nodesOf(const std::string& robot, const std::vector<LedgerLoop>& loops) {
-  std::map<uint32_t, KeyNode> nodes;
+std::vector<LedgerNode> nodesOf(const std::string& robot, const std::vector<LedgerLoop>& loops) {
+  std::map<uint32_t, LedgerNode> nodes;
   for (const LedgerLoop& loop : loops)
-    for (const KeyNode* node : {&loop.from, &loop.to})
+    for (const LedgerNode* node : {&loop.from, &loop.to})
       if (node->robot == robot) nodes[node->graph_id] = *node;
-  std::vector<KeyNode> result;
+  std::vector<LedgerNode> result;
   for (const auto& [id, node] : nodes) result.push_back(node);
   return result;
 }
 
-void addScans(const std::vector<KeyNode>& nodes, const std::string& path, bool planar,
+void addScans(const std::vector<LedgerNode>& nodes, const std::string& path, bool planar,
               TrueNodes& all, std::vector<std::string>& warnings) {
   if (!std::filesystem::exists(path)) {
     warnings.push_back("there is no '" + path +
@@ -52,9 +52,9 @@ TrueNodes trueNodes(const RunFiles& run, const TruthFolder& truth,
   TrueNodes all;
   for (const RunFiles::Robot& robot : run.robots) {
     if (!truth.has(robot.name)) continue;
-    const std::vector<KeyNode> nodes = nodesOf(robot.name, loops);
+    const std::vector<LedgerNode> nodes = nodesOf(robot.name, loops);
     const TrueTrajectory path(readTum(truth.trajectory(robot.name)), robot.planar);
-    for (const KeyNode& node : nodes) all[node.graph_id].world_T_base = path.at(node.stamp);
+    for (const LedgerNode& node : nodes) all[node.graph_id].world_T_base = path.at(node.stamp);
     addScans(nodes, run.folder.keyframes(robot.name), robot.planar, all, warnings);
   }
   return all;

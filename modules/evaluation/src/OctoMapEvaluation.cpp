@@ -95,7 +95,7 @@ OctoMapCounts surfaceVoxels(const octomap::OcTree& tree, const Inquiry& inquiry,
 OctoMapCounts drivenFloor(const Inquiry& inquiry, const SurfaceSamples& surface,
                           const std::vector<Eigen::Vector3f>& positions) {
   constexpr float kBeside = 0.5f, kBelow = 2.0f, kUpward = 0.5f;
-  constexpr float kAbove = 0.1f;  // a base on the ground may lie a little below its samples
+  constexpr float kAbove = 0.4f;  // a base near the ground may lie below its samples
   std::vector<Eigen::Vector3f> on_plane = positions;
   for (Eigen::Vector3f& p : on_plane) p.z() = 0;
   const KdTree tree(on_plane);

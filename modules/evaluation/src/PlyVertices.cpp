@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -44,6 +45,15 @@ PlyVertices::PlyVertices(const std::string& path) : path_(path) {
   if (!file) throw std::runtime_error("cannot read '" + path + "': there is no such file");
   readHeader(file);
   data_ = file.tellg();
+  checkSize();
+}
+
+/** A damaged header may announce more vertices than any memory has room for. */
+void PlyVertices::checkSize() const {
+  const size_t least_bytes = binary_ ? stride_ : 2 * properties_.size();
+  const size_t there = std::filesystem::file_size(path_) - static_cast<size_t>(data_) + 1;
+  if (count_ > there / least_bytes)
+    fail("is too short for the " + std::to_string(count_) + " vertices that its header announces");
 }
 
 void PlyVertices::readHeader(std::istream& file) {
@@ -71,7 +81,8 @@ void PlyVertices::takeHeaderLine(const std::string& line, std::string& element) 
     if (first == "vertex") {
       double count = 0;
       if (!element.empty()) fail("has elements before its vertices");
-      if (!parseDouble(second, count) || count < 0) fail("has no number of vertices");
+      if (!parseDouble(second, count) || !(count >= 0 && count < 1e15))
+        fail("has no number of vertices");
       count_ = static_cast<size_t>(count);
     }
     element = first;

@@ -17,22 +17,28 @@ double misfit(const std::vector<JoinedPose>& poses, bool planar) {
   return Statistics::of(trajectoryError(poses, fitRigid(poses, planar)).position_m).rmse;
 }
 
-/** Whether the trajectory fits the other robot's truth much better than its own. */
-bool fitsBetter(const NamedTrajectory& robot, const TrueTrajectory& other) {
+/** The trajectory, joined with the truth of another robot. */
+std::vector<JoinedPose> joinedWith(const TrueTrajectory& other,
+                                   const std::vector<JoinedPose>& trajectory) {
   std::vector<JoinedPose> poses;
-  for (JoinedPose pose : *robot.poses) {
+  for (JoinedPose pose : trajectory) {
     const auto truth = other.at(pose.stamp);
     if (!truth) continue;
     pose.truth = *truth;
     poses.push_back(pose);
   }
-  if (poses.size() < kMinPoses || 2 * poses.size() < robot.poses->size()) return false;
-  const double own = misfit(*robot.poses, robot.robot.planar);
-  return own > kMinMisfit && own > kMuchBetter * misfit(poses, robot.robot.planar);
+  return poses;
 }
 
-TrueTrajectory truthOf(const NamedTrajectory& robot, const TruthFolder& truth) {
-  return TrueTrajectory(readTum(truth.trajectory(robot.robot.name)), robot.robot.planar);
+/** Whether the trajectory fits the other robot's truth much better than its own. */
+bool fitsBetter(const NamedTrajectory& robot, const NamedTrajectory& other,
+                const TruthFolder& truth) {
+  const double own = misfit(*robot.poses, robot.robot.planar);
+  if (own < kMinMisfit) return false;
+  const TrueTrajectory path(readTum(truth.trajectory(other.robot.name)), robot.robot.planar);
+  const std::vector<JoinedPose> poses = joinedWith(path, *robot.poses);
+  if (poses.size() < kMinPoses || 2 * poses.size() < robot.poses->size()) return false;
+  return own > kMuchBetter * misfit(poses, robot.robot.planar);
 }
 
 }  // namespace
@@ -40,8 +46,7 @@ TrueTrajectory truthOf(const NamedTrajectory& robot, const TruthFolder& truth) {
 void refuseSwappedRobots(const std::vector<NamedTrajectory>& robots, const TruthFolder& truth) {
   for (size_t i = 0; i < robots.size(); ++i)
     for (size_t j = 0; j < i; ++j)
-      if (fitsBetter(robots[i], truthOf(robots[j], truth)) &&
-          fitsBetter(robots[j], truthOf(robots[i], truth)))
+      if (fitsBetter(robots[i], robots[j], truth) && fitsBetter(robots[j], robots[i], truth))
         throw std::runtime_error(
             "robots '" + robots[j].robot.name + "' and '" + robots[i].robot.name +
             "' each fit the other one's true trajectory much better than their "

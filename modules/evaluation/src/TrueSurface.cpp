@@ -15,6 +15,9 @@ SurfaceSamples SurfaceSamples::fromPly(const std::string& path) {
   const bool has_seen = file.has("seen");
   if (has_seen) properties.push_back("seen");
   SurfaceSamples samples;
+  samples.points.reserve(file.count());
+  samples.normals.reserve(file.count());
+  samples.seen.reserve(file.count());
   file.read(properties, [&](const double* v) {
     const Eigen::Vector3d normal(v[3], v[4], v[5]);
     if (!(normal.norm() > 0.5)) throw std::runtime_error("'" + path + "' has a zero normal");

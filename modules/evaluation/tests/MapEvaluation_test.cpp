@@ -141,7 +141,9 @@ TEST(PlyVertices, DamagedFilesAreErrors) {
   EXPECT_THAT(error(""), HasSubstr("is no PLY file"));
   EXPECT_THAT(error("plz"), HasSubstr("is no PLY file"));
   EXPECT_THAT(error(good.substr(0, good.size() - 11)), HasSubstr("ends within its header"));
-  EXPECT_THAT(error(good + std::string(20, '\0')), HasSubstr("at vertex 2 of 2"));
+  EXPECT_THAT(error(good + std::string(28, '\0')), HasSubstr("too short for the 2 vertices"));
+  EXPECT_THAT(error(header("ascii", "1e12") + "1 2 3 4\n"), HasSubstr("too short for the 1000"));
+  EXPECT_THAT(error(header("ascii") + "1 2 3.000000000 4\n"), HasSubstr("at vertex 2 of 2"));
   EXPECT_THAT(error(header("ascii") + "1 2 3 4\n1 x 3 4\n"), HasSubstr("at vertex 2 of 2"));
   EXPECT_THAT(error(header("ascii") + "1 2 3 4\n1 nan 3 4\n"), HasSubstr("not finite in vertex 2"));
   EXPECT_THAT(error(header("binary_big_endian")), HasSubstr("binary_big_endian"));

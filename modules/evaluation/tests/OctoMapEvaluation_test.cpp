@@ -142,6 +142,11 @@ TEST(FreeSpace, IsWhatTheRobotsCouldReach) {
   EXPECT_EQ(freeVoxels(room(), {}), 0u);
   EXPECT_EQ(freeVoxels(room(), {{100, 0, 0}}), 0u) << "a robot outside of what was seen";
   EXPECT_EQ(freeVoxels(room(), {{2, 1, 0.1f}}), kTrulyFree) << "a base on the ground";
+  EXPECT_EQ(freeVoxels(room(), {{2, 1, -0.1f}}), kTrulyFree) << "a base below it, and outside";
+  EXPECT_EQ(freeVoxels(room(), {{2, 1, 0.3f}}), kTrulyFree) << "a base just above it";
+  SurfaceSamples outside = room();
+  addLevel(-4, 8, -4, 8, -2, 1, outside);  // makes the box larger, so that there is an outside
+  EXPECT_EQ(freeVoxels(outside, {{2, 1, 0.1f}, {2, 2, -0.1f}}), kTrulyFree);
   SurfaceSamples divided = room();
   addWall(true, 2.1f, 0, 3, 0, 2, divided);  // in voxel 10 of 20
   EXPECT_EQ(freeVoxels(divided, {{1, 1.5f, 1}}), 7u * 11 * 6);

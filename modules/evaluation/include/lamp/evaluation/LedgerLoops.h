@@ -12,7 +12,7 @@
 namespace lamp {
 
 /** A key node as the files of a run name it. */
-struct KeyNode {
+struct LedgerNode {
   std::string robot;
   uint32_t graph_id = 0;  ///< in graph.g2o
   double stamp = 0;       ///< seconds, UTC
@@ -20,7 +20,7 @@ struct KeyNode {
 
 /** The last attempt to close the loop between two key nodes. */
 struct LedgerLoop {
-  KeyNode from, to;
+  LedgerNode from, to;
   Pose3 from_T_to = Pose3::Identity();
   bool has_result = false;  ///< false if it was refused before there was a relative pose
   bool verified = false;    ///< accepted by all verifiers

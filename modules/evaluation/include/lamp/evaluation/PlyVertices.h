@@ -30,6 +30,7 @@ class PlyVertices {
     double (*value)(const char*) = nullptr;  ///< from the bytes of a binary vertex
   };
   void readHeader(std::istream& file);
+  void checkSize() const;
   void takeHeaderLine(const std::string& line, std::string& element);
   void addProperty(const std::string& type, const std::string& name);
   std::vector<size_t> placesOf(const std::vector<std::string>& properties) const;

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+namespace lamp {
+
+/** One row of the table. The pattern shows figures of a run's JSON: `{path:decimals}`, or
+ * `{path%decimals}` for a share in percent. */
+struct ReportRow {
+  const char* label;
+  const char* pattern;
+};
+
+extern const std::vector<ReportRow> kTrajectoryRows, kStageRows, kLoopErrorRows, kMapRows,
+    kOctoMapRows, kRelationRows;
+
+}  // namespace lamp
