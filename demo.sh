@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds in release mode, and maps the 2D recording that comes with MRPT.
-# The run folder is demo-out; that of an earlier run is kept as demo-out.1, demo-out.2, ...
+# Installs what is missing, builds in release mode, maps a real recording (the 2D one that comes with
+# MRPT) and a simulated one of two robots (rawlogs/demo), and compares the latter with the truth.
+# Results are in demo-out; those of an earlier run are kept as demo-out.1, demo-out.2, ...
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -14,18 +15,26 @@ if [[ -e $out ]]; then
   mv "$out" "$out.$number"
   echo "The earlier $out is now $out.$number"
 fi
+bin=build/release/apps
 
-build/release/apps/lamp-slam ini/sena.ini --out "$out"
+echo "One robot, a loop of 76 m through a building, 224 laser scans:"
+$bin/lamp-slam ini/sena.ini --out "$out/sena"
+echo "Two robots in a simulated mine, from the same gate:"
+$bin/lamp-slam rawlogs/demo/lamp.ini --out "$out/team"
+$bin/lamp-eval "$out/team" --truth rawlogs/demo/truth >"$out/evaluation.txt"
+grep -E 'all robots: ATE|loops kept: (pairs|precision)|map: (accuracy mean|completeness)' "$out/evaluation.txt"
 
 cat <<END
 
-The map of one loop through a building, 224 laser scans, is in $out:
-  $out/maps/map.png                 the map seen from above: any picture viewer
-  $out/maps/map.ply, map.pcd        the point cloud: CloudCompare, SceneViewer3D, pcl_viewer
-  $out/maps/map.bt, map.ot          the OctoMap: octovis
-  $out/trajectories/*.tum           the trajectory: evo_traj tum
-  $out/graph.g2o, graph.graph       the pose graph: g2o_viewer; graph-slam (MRPT)
-  $out/keyframes/*.rawlog           the keyed scans: RawLogViewer
-  $out/loops.csv, summary.json      every loop closure with its reasons; counts: any text editor
-docs/run-folder.md describes each file.
+In $out, for both recordings (sena, team):
+  $out/*/maps/map.png               the map seen from above: any picture viewer
+  $out/*/maps/map.ply, map.pcd      the point cloud: CloudCompare, SceneViewer3D, pcl_viewer
+  $out/*/maps/map.bt, map.ot        the OctoMap: octovis
+  $out/*/trajectories/*.tum         the trajectories: evo_traj tum
+  $out/*/graph.g2o, graph.graph     the pose graph: g2o_viewer; graph-slam (MRPT)
+  $out/*/keyframes/*.rawlog         the keyed scans: RawLogViewer
+  $out/*/loops.csv, summary.json    every loop closure with its reasons; counts: any text editor
+  $out/evaluation.txt               the team against the truth (odometry in brackets)
+  $out/team/evaluation/plots/*.png  the same as pictures; map_error.ply: coloured by error
+docs/run-folder.md and docs/evaluation.md describe each file.
 END

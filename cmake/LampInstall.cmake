@@ -8,3 +8,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/mrpt_lamp-config-version.
 install(FILES ${PROJECT_BINARY_DIR}/mrpt_lamp-config.cmake
   ${PROJECT_BINARY_DIR}/mrpt_lamp-config-version.cmake DESTINATION ${LAMP_CMAKE_DIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/ini/ DESTINATION ${CMAKE_INSTALL_DATADIR}/mrpt_lamp/ini)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)

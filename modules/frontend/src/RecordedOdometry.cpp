@@ -9,8 +9,12 @@ IMPLEMENTS_MRPT_OBJECT(RecordedOdometry, lamp::OdometrySource, lamp)
 namespace lamp {
 
 void RecordedOdometry::observe(const InputObservation& observation) {
+  if (!isOdometry(*observation.observation)) return;
   const auto reading = odometryFromObservation(*observation.observation);
-  if (!reading || !isFinite(reading->odom_T_base)) return;
+  if (!reading) {
+    ++not_finite_;
+    return;
+  }
   if (!readings_.empty() && reading->stamp <= readings_.back().stamp) {
     ++out_of_order_;
     return;
@@ -69,6 +73,9 @@ std::vector<std::string> RecordedOdometry::warnings() const {
         "ignored for " +
         std::to_string(ignored_covariances_) +
         " odometry edges, which use the motion model of [frontend]");
+  if (not_finite_ > 0)
+    result.push_back(std::to_string(not_finite_) +
+                     " odometry readings were dropped: their poses are not finite");
   if (out_of_order_ > 0)
     result.push_back(std::to_string(out_of_order_) +
                      " odometry readings were dropped: their stamps do not increase");

@@ -24,7 +24,9 @@ void append(const LidarSweep& sweep, const Lidar& lidar, const TrajectoryInterpo
   const auto sensor = static_cast<uint8_t>(scan.sensors.size() - 1);
   const std::vector<Eigen::Vector3f> points = deskew(sweep, lidar, odometry, stamp);
   scan.points.insert(scan.points.end(), points.begin(), points.end());
-  for (const LidarReturn& found : sweep.returns) scan.intensity.push_back(found.intensity);
+  // Lidars give intensity as a byte.
+  for (const LidarReturn& found : sweep.returns)
+    scan.intensity.push_back(std::round(255.0f * found.intensity) / 255.0f);
   scan.sensor.resize(scan.points.size(), sensor);
 }
 

@@ -78,9 +78,9 @@ std::vector<size_t> addGrid(const GridMine& mine, const PassageStyle& style, siz
 
 void addCoalMine(double drives_m, size_t gate, double lead_m, WorldBuilder& builder) {
   const GridMine mine = sized({2, 3, 28.0, 0.8, 0.25, 0.35, 0.95, 1.05}, drives_m);
-  const PassageStyle style{5.0, 2.6, 0.4, {0.18, 0.12, 0.3, 0.8, Material::kRock}};
+  const PassageStyle style{5.0, 2.6, 0.4, {0.07, 0.06, 0.5, 0.6, Material::kRock}};
   for (const size_t passage : addGrid(mine, style, gate, lead_m, builder)) {
-    if (chance(builder.random(), 0.35)) builder.addSupports(passage, 5.0);
+    if (chance(builder.random(), 0.2)) builder.addSupports(passage, 5.0);
     if (chance(builder.random(), 0.3)) builder.addPipe(passage, 1.9, 0.08, 1);
     builder.addRubble(passage, 9.0, 0.3);
   }

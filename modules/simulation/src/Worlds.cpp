@@ -42,7 +42,7 @@ World makeFinals(double length_m, double cell_m, uint64_t seed) {
   builder.addRoom({18, 0, 0}, {13, 12, 5.5}, 0, concrete);
   const size_t cave = builder.addPlace({18, 45, 0}), mine = builder.addPlace({18, -75, 0});
   builder.addPassage(hall, cave, link);
-  builder.addPassage(hall, mine, {4.5, 2.8, 0.4, {0.18, 0.12, 0.3, 0.8, Material::kRock}});
+  builder.addPassage(hall, mine, {4.5, 2.8, 0.4, {0.07, 0.06, 0.5, 0.6, Material::kRock}});
   addBuilding(0.13 * length_m, hall, 20.0, builder);
   addCave(0.16 * length_m, cave, 10.0, builder);
   addCoalMine(0.2 * length_m, mine, 15.0, builder);

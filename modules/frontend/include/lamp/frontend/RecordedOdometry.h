@@ -35,6 +35,7 @@ class RecordedOdometry : public OdometrySource {
   bool planar_ = true;
   size_t ignored_covariances_ = 0;
   size_t out_of_order_ = 0;
+  size_t not_finite_ = 0;
 };
 
 }  // namespace lamp
