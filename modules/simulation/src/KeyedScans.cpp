@@ -38,19 +38,19 @@ Eigen::Vector3d originOf(const Lidar& lidar, const std::vector<double>& stamps,
          lidar.baseTSensor(middle).translation();
 }
 
-uint64_t voxelKey(const Eigen::Vector3f& point, float leaf_m, uint8_t sensor) {
+uint64_t voxelKey(const Eigen::Vector3f& point, float leaf_m) {
   const auto part = [&](float value) {
     return static_cast<uint64_t>(static_cast<int64_t>(std::floor(value / leaf_m)) + (1 << 18)) &
            0x7ffff;
   };
-  return (part(point.x()) << 45) | (part(point.y()) << 26) | (part(point.z()) << 7) | sensor;
+  return (part(point.x()) << 38) | (part(point.y()) << 19) | part(point.z());
 }
 
 std::vector<size_t> firstOfVoxels(const Scan& scan, float leaf_m) {
   std::unordered_set<uint64_t> taken;
   std::vector<size_t> kept;
   for (size_t i = 0; i < scan.size(); ++i)
-    if (taken.insert(voxelKey(scan.points[i], leaf_m, scan.sensor[i])).second) kept.push_back(i);
+    if (taken.insert(voxelKey(scan.points[i], leaf_m)).second) kept.push_back(i);
   return kept;
 }
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double kSearchRangeM = 25.0, kLookAlikeM = 6.0;
 constexpr uint32_t kMinIndexGap = 10;
 constexpr double kTrueOverlap = 0.3, kFalseOverlap = 0.05;
+constexpr size_t kMostMeasured = 5;  ///< pairs measured for each one wanted
 
 struct KeyNode {
   KeyframeId id;
@@ -93,9 +94,11 @@ class PairCollector {
     });
   }
 
-  void collect(const std::vector<Pair>& pairs, bool look_alike, size_t most_true,
-               size_t most_false) {
+  /** \param most_true, most_false of all that are collected. */
+  void collect(std::vector<Pair> pairs, bool look_alike, size_t most_true, size_t most_false) {
     constexpr size_t kBatch = 256;
+    // One kind may be so rare that there are not enough of it.
+    pairs.resize(std::min(pairs.size(), kMostMeasured * (most_true + most_false)));
     for (size_t begin = 0; begin < pairs.size(); begin += kBatch) {
       if (true_count_ >= most_true && false_count_ >= most_false) return;
       std::vector<LoopPair> batch(std::min(kBatch, pairs.size() - begin));
@@ -145,8 +148,8 @@ std::vector<LoopPair> findLoopPairs(const Mission& mission, const Layout& layout
   shuffle(alike, random);
   shuffle(near, random);
   PairCollector collector(nodes, scans);
-  collector.collect(alike, true, 0, pairs / 3);
-  collector.collect(near, false, pairs, pairs);
+  collector.collect(std::move(near), false, pairs, alike.empty() ? pairs : pairs - pairs / 3);
+  collector.collect(std::move(alike), true, pairs, pairs);
   return collector.take();
 }
 

@@ -19,10 +19,10 @@ struct LoopPair {
 };
 
 /** True pairs (overlap of the scans of at least 0.3) and false ones (below 0.05), up to
- * `config.world.loop_pairs` of each, drawn at random: pairs within search range (25 m) that are no
- * neighbours in sequence, and for a third of the false ones pairs at look-alike places. Overlap as
- * core's scanOverlap(). In the order of key nodes.
- * \param scans of each robot, one a key node. Runs on the caller's TBB arena. */
+ * `pairs` of each, drawn at random: pairs within search range (25 m) that are no
+ * neighbours in sequence, and for a third of the false ones, or more where the others are rare,
+ * pairs at look-alike places. Overlap as core's scanOverlap(). In the order of key nodes. \param
+ * scans of each robot, one a key node. Runs on the caller's TBB arena. */
 std::vector<LoopPair> findLoopPairs(const Mission& mission, const Layout& layout,
                                     const std::vector<std::vector<KeyedScanPtr>>& scans,
                                     size_t pairs, uint64_t seed);
