@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "lamp/core/ScanOverlap.h"
 
@@ -11,7 +12,7 @@ namespace lamp {
 
 namespace {
 
-constexpr double kSearchRangeM = 25.0, kLookAlikeM = 6.0;
+constexpr double kSearchRangeM = 25.0, kNearM = 6.0, kLookAlikeM = 6.0;
 constexpr uint32_t kMinIndexGap = 10;
 constexpr double kTrueOverlap = 0.3, kFalseOverlap = 0.05;
 constexpr size_t kMostMeasured = 5;  ///< pairs measured for each one wanted
@@ -40,13 +41,13 @@ double distance(const KeyNode& a, const KeyNode& b) {
 
 using Pair = std::pair<size_t, size_t>;  ///< places in the list of key nodes, the first smaller
 
-std::vector<Pair> pairsInRange(const std::vector<KeyNode>& nodes) {
+std::vector<Pair> pairsWithin(double range_m, const std::vector<KeyNode>& nodes) {
   std::vector<Pair> pairs;
   for (size_t a = 0; a < nodes.size(); ++a)
     for (size_t b = a + 1; b < nodes.size(); ++b) {
       const bool neighbours = nodes[a].id.robot == nodes[b].id.robot &&
                               nodes[b].id.index - nodes[a].id.index < kMinIndexGap;
-      if (!neighbours && distance(nodes[a], nodes[b]) < kSearchRangeM) pairs.emplace_back(a, b);
+      if (!neighbours && distance(nodes[a], nodes[b]) < range_m) pairs.emplace_back(a, b);
     }
   return pairs;
 }
@@ -97,11 +98,14 @@ class PairCollector {
   /** \param most_true, most_false of all that are collected. */
   void collect(std::vector<Pair> pairs, bool look_alike, size_t most_true, size_t most_false) {
     constexpr size_t kBatch = 256;
+    const auto known = [&](const Pair& pair) { return measured_.count(pair) > 0; };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), known), pairs.end());
     // One kind may be so rare that there are not enough of it.
     pairs.resize(std::min(pairs.size(), kMostMeasured * (most_true + most_false)));
     for (size_t begin = 0; begin < pairs.size(); begin += kBatch) {
       if (true_count_ >= most_true && false_count_ >= most_false) return;
       std::vector<LoopPair> batch(std::min(kBatch, pairs.size() - begin));
+      for (size_t i = 0; i < batch.size(); ++i) measured_.insert(pairs[begin + i]);
       tbb::parallel_for(size_t{0}, batch.size(),
                         [&](size_t i) { batch[i] = measure(pairs[begin + i], look_alike); });
       for (const LoopPair& pair : batch) {
@@ -132,6 +136,7 @@ class PairCollector {
 
   const std::vector<KeyNode>& nodes_;
   std::vector<std::unique_ptr<OverlapScan>> prepared_;
+  std::set<Pair> measured_;
   std::vector<LoopPair> found_;
   size_t true_count_ = 0, false_count_ = 0;
 };
@@ -144,12 +149,14 @@ std::vector<LoopPair> findLoopPairs(const Mission& mission, const Layout& layout
   const std::vector<KeyNode> nodes = keyNodesOf(mission);
   Random random(mixSeeds({seed, 1}));
   std::vector<Pair> alike = lookAlikePairs(nodes, layout, pairs, random);
-  std::vector<Pair> near = pairsInRange(nodes);
-  shuffle(alike, random);
-  shuffle(near, random);
+  std::vector<Pair> near = pairsWithin(kSearchRangeM, nodes);
+  std::vector<Pair> nearest = pairsWithin(kNearM, nodes);
+  for (auto* list : {&alike, &near, &nearest}) shuffle(*list, random);
   PairCollector collector(nodes, scans);
   collector.collect(std::move(near), false, pairs, alike.empty() ? pairs : pairs - pairs / 3);
   collector.collect(std::move(alike), true, pairs, pairs);
+  // Behind the walls of small rooms few pairs in range see the same.
+  collector.collect(std::move(nearest), false, pairs, pairs);
   return collector.take();
 }
 
