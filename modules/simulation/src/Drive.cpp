@@ -105,7 +105,7 @@ class Driver {
   void drive(const Leg& leg, double lane, const RayCaster& world) {
     const std::vector<Vector3d> line = drivenLine(leg, options_.wander_m, noise_, lane, world);
     if (line.size() < 2) return;
-    turnTo(yawAlong(line, 0), line.front());
+    turnTo(yawAlong(line, 0), slopeAlong(line, 0), line.front());
     double at = 0;  // place on the line, in points
     while (at + 1 < static_cast<double>(line.size())) {
       const auto i = static_cast<size_t>(at);
@@ -135,12 +135,15 @@ class Driver {
     return std::atan2(along.z(), along.head<2>().norm());
   }
 
-  void turnTo(double yaw, const Vector3d& floor) {
+  /** On the spot. What was uphill becomes downhill, so the slope turns as well. */
+  void turnTo(double yaw, double slope, const Vector3d& floor) {
     floor_ = floor;
     if (poses_.empty()) yaw_ = yaw;
     const double step = kStepS * options_.turn_rate_dps * M_PI / 180.0;
+    const double slope_before = slope_, turn = std::abs(wrapped(yaw - yaw_));
     while (std::abs(wrapped(yaw - yaw_)) > step) {
       yaw_ += std::copysign(step, wrapped(yaw - yaw_));
+      slope_ = slope + (slope_before - slope) * std::abs(wrapped(yaw - yaw_)) / turn;
       push();
     }
   }

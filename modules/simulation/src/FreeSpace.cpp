@@ -45,7 +45,7 @@ Eigen::AlignedBox3d widened(const Eigen::AlignedBox3d& box, double by) {
 
 void FreeSpace::add(const Hollow& hollow) {
   const Vector2d axis = (hollow.to - hollow.from).head<2>();
-  const double length = axis.norm(), across = 0.5 * hollow.width_m;
+  const double length = axis.norm(), across = 0.5 * hollow.width_m + hollow.level_m;
   Eigen::AlignedBox3d box(hollow.from.cwiseMin(hollow.to), hollow.from.cwiseMax(hollow.to));
   box.min() -= Vector3d(across, across, 0);
   box.max() += Vector3d(across, across, hollow.height_m);
@@ -95,7 +95,7 @@ double FreeSpace::distanceTo(size_t i, const Vector3d& p) const {
   const double section =
       boxDistance(std::abs(local.y()) - 0.5 * hollow.width_m + r,
                   std::abs(local.z() - 0.5 * hollow.height_m) - 0.5 * hollow.height_m + r);
-  return boxDistance(section, std::abs(local.x()) - 0.5 * axes_[i].length + r) - r;
+  return boxDistance(section, std::abs(local.x()) - 0.5 * axes_[i].length - hollow.level_m + r) - r;
 }
 
 FreeSpace::Sample FreeSpace::smooth(const Vector3d& p, const Parts& parts) const {

@@ -1,6 +1,7 @@
 #include "lamp/simulation/SimConfig.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace lamp {
 
@@ -8,6 +9,7 @@ namespace {
 
 constexpr int kMostRobots = 16;
 const std::string kLidarPrefix = "lidar.";
+const char* const kRobotPrefixes[] = {"robot.", "drive.", "odometry."};
 
 /** The lidars of the paper's robots (III, "Hardware Setup"). */
 std::map<std::string, LidarOptions> paperLidars() {
@@ -50,18 +52,21 @@ bool hasPrefix(const std::string& text, const std::string& prefix) {
   return text.rfind(prefix, 0) == 0;
 }
 
-/** Sections that nothing reads are faults. */
-void checkSections(const Ini& ini, const SimConfig& config, Faults& faults) {
+/** Sections that nothing reads are faults. \param team_known whether the robots' are known. */
+void checkSections(const Ini& ini, const SimConfig& config, bool team_known, Faults& faults) {
   std::vector<std::string> known = {"world", "keyed", "imu",      "radio",
                                     "link",  "drive", "odometry", "artifacts"};
   for (const SimulatedRobotOptions& robot : config.robots)
-    for (const char* const kind : {"robot.", "drive.", "odometry."})
-      known.push_back(kind + robot.name);
-  for (const Ini::Section& section : ini.sections())
-    if (!hasPrefix(section.name, kLidarPrefix) &&
-        std::find(known.begin(), known.end(), section.name) == known.end())
+    for (const char* const kind : kRobotPrefixes) known.push_back(kind + robot.name);
+  for (const Ini::Section& section : ini.sections()) {
+    const bool of_robot =
+        std::any_of(std::begin(kRobotPrefixes), std::end(kRobotPrefixes),
+                    [&](const char* prefix) { return hasPrefix(section.name, prefix); });
+    if (hasPrefix(section.name, kLidarPrefix) || (of_robot && !team_known)) continue;
+    if (std::find(known.begin(), known.end(), section.name) == known.end())
       faults.add(section.where,
                  "there is no section [" + section.name + "]" + didYouMean(section.name, known));
+  }
 }
 
 }  // namespace
@@ -94,7 +99,10 @@ void SimulatedRobotOptions::visit(OptionVisitor& v) {
 
 SimConfig::SimConfig(const WorldKind& world_kind, const Ini& ini, Faults faults)
     : kind(&world_kind), lidars(paperLidars()) {
+  const size_t faults_before = faults.list().size();
   readOptions(ini.find("world"), world, faults);
+  // The size of the team decides which robots' sections there are.
+  const bool team_known = faults.list().size() == faults_before;
   readOptions(ini.find("keyed"), keyed, faults);
   readOptions(ini.find("imu"), imu, faults);
   readOptions(ini.find("radio"), radio, faults);
@@ -107,7 +115,6 @@ SimConfig::SimConfig(const WorldKind& world_kind, const Ini& ini, Faults faults)
   OdometryOptions odometry;
   readOptions(ini.find("drive"), drive, faults);
   readOptions(ini.find("odometry"), odometry, faults);
-  if (!faults.empty()) faults.throwIfAny();  // the number of robots decides what else is a fault
   robots = paperTeam(*kind, world);
   for (SimulatedRobotOptions& robot : robots) {
     readOptions(ini.find("robot." + robot.name), robot, faults);
@@ -119,7 +126,7 @@ SimConfig::SimConfig(const WorldKind& world_kind, const Ini& ini, Faults faults)
         faults.add("[robot." + robot.name + "] lidars",
                    "there is no section [" + kLidarPrefix + lidar + "]");
   }
-  checkSections(ini, *this, faults);
+  checkSections(ini, *this, team_known, faults);
   faults.throwIfAny();
 }
 

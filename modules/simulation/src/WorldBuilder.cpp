@@ -47,10 +47,13 @@ size_t WorldBuilder::addPassage(size_t from, size_t to, const PassageStyle& styl
     Hollow hollow;
     hollow.from = a;
     hollow.to = b;
-    // A slope must not go on beyond its ends.
-    if (std::abs(a.z() - b.z()) < 0.01) {
+    // A slope must not go on beyond its ends, but there its floor must not be a rounded edge.
+    const bool level = std::abs(a.z() - b.z()) < 0.01;
+    if (level) {
       hollow.from -= more;
       hollow.to += more;
+    } else {
+      hollow.level_m = style.corner_m;
     }
     hollow.width_m = style.width_m;
     hollow.height_m = style.height_m;
@@ -189,9 +192,10 @@ void WorldBuilder::addDistractors(int count) {
 }
 
 void WorldBuilder::addGate() {
-  const Pose3 start = alongPassage(0, 0);
+  const size_t first = world_.layout.passagesAt(world_.layout.gate).front();
+  const Pose3 start = alongPassage(first, 0);
   world_.world_T_gate = start * poseAt({kGateM, 0, 0}, 0);
-  const PassageStyle& style = styleOf(0);
+  const PassageStyle& style = styleOf(first);
   constexpr double kWidthM = 2.6, kHeightM = 1.9, kBarM = 0.1, kPlateM = 0.3;
   for (const double side : {-1.0, 1.0})
     addSolid(box(world_.world_T_gate * poseAt({0, side * 0.5 * kWidthM, 0}, 0),

@@ -49,8 +49,8 @@ class WorldBuilder {
   void addClutter(const Eigen::Vector3d& floor, double reach_m, int count, Random& random);
   /** Reflective signs on the walls that are not the gate's plates. */
   void addDistractors(int count);
-  /** The gate: a frame with three reflective plates of known position around the first place, in
-   * front of the first passage. */
+  /** The gate: a frame with three reflective plates of known position in the passage that leaves
+   * the layout's gate, and room for robots in front of it. */
   void addGate();
   /** Artifacts beside passages, away from the gate. */
   void addArtifacts(int count);

@@ -25,6 +25,7 @@ struct Hollow {
   double width_m = 3;
   double height_m = 3;
   double corner_m = 0.3;  ///< radius of the corners
+  double level_m = 0;     ///< by how much the hollow goes on, level, beyond both ends
   WallStyle style;
 };
 
