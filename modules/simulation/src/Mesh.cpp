@@ -8,7 +8,6 @@ void Mesh::append(const Mesh& other) {
   const auto first = static_cast<uint32_t>(vertices.size());
   vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
   materials.insert(materials.end(), other.materials.begin(), other.materials.end());
-  triangles.reserve(triangles.size() + other.triangles.size());
   for (const auto& t : other.triangles)
     triangles.push_back({first + t[0], first + t[1], first + t[2]});
 }

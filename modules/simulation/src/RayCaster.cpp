@@ -7,9 +7,9 @@
 
 namespace lamp {
 
-/** Built on one thread: the same world gives the same hits wherever it runs. */
 struct RayCaster::Scene {
-  RTCDevice device = rtcNewDevice("threads=1");
+  // Not "threads=1": Embree would set that limit for all of TBB.
+  RTCDevice device = rtcNewDevice(nullptr);
   RTCScene scene = nullptr;
 
   ~Scene() {
