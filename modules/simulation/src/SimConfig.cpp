@@ -78,7 +78,8 @@ void WorldOptions::visit(OptionVisitor& v) {
   v("cell_m", cell_m, "m", "size of the walls' triangles; 0 for what suits the world", {0, 1});
   v("start_interval_s", start_interval_s, "s", "robots leave the gate one after the other",
     kNotNegative);
-  v("truth_spacing_m", truth_spacing_m, "m", "distance of the samples in truth/map.ply", {0.02, 1});
+  v("truth_spacing_m", truth_spacing_m, "m",
+    "distance of the samples in truth/map.ply; 0 for 0.6 cells", {0, 1});
   v("loop_pairs", loop_pairs, "", "true, and as many false, pairs of scans in truth/loop_pairs.csv",
     kNotNegative);
 }
@@ -149,6 +150,10 @@ double SimConfig::totalLength() const {
   double sum = 0;
   for (const SimulatedRobotOptions& robot : robots) sum += robot.length_m;
   return sum;
+}
+
+double SimConfig::truthSpacingM() const {
+  return world.truth_spacing_m > 0 ? world.truth_spacing_m : 0.6 * cellM();
 }
 
 }  // namespace lamp

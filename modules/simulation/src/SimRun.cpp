@@ -39,8 +39,7 @@ class Simulation {
  private:
   World makeWorld() {
     progress_.show(0, "building the world");
-    const double cell = config_.world.cell_m > 0 ? config_.world.cell_m : config_.kind->cell_m;
-    return config_.kind->make(config_.totalLength(), cell, mixSeeds({job_.seed, 1}));
+    return config_.kind->make(config_.totalLength(), config_.cellM(), mixSeeds({job_.seed, 1}));
   }
 
   /** Keyed scans, also of a raw recording: the true pairs are found with them. */
@@ -96,8 +95,7 @@ class Simulation {
                            static_cast<size_t>(config_.world.loop_pairs), mixSeeds({job_.seed, 3}));
     writeTextFile(folder + "/loop_pairs.csv", loopPairsCsv(pairs_, mission_));
     progress_.show(0.95, "the true surface");
-    samples_ =
-        writeTruthMap(folder + "/map.ply", world_.mesh, seen_, config_.world.truth_spacing_m);
+    samples_ = writeTruthMap(folder + "/map.ply", world_.mesh, seen_, config_.truthSpacingM());
   }
 
   std::string describe() const {

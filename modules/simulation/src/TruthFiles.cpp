@@ -1,5 +1,7 @@
 #include "lamp/simulation/TruthFiles.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -23,8 +25,9 @@ void sampleTriangle(const Mesh& mesh, size_t triangle, double spacing_m, Visit v
   const auto& [a, b, c] = mesh.triangles[triangle];
   const Eigen::Vector3f origin = mesh.vertices[a], u = mesh.vertices[b] - origin,
                         v = mesh.vertices[c] - origin;
-  const float longest = std::max({u.norm(), v.norm(), (u - v).norm()});
-  const int steps = std::max(1, static_cast<int>(std::ceil(longest / spacing_m)));
+  // For the two equal sides of a right triangle of this area, as most are.
+  const double side = std::sqrt(u.cross(v).norm());
+  const int steps = std::max(1, static_cast<int>(std::ceil(side / spacing_m)));
   for (int i = 0; i < steps; ++i)
     for (int k = 0; i + k < steps; ++k) {
       // The middle of the small triangle, so that neighbours do not share samples.

@@ -21,7 +21,7 @@ struct WorldOptions {
   double distance_scale = 1;
   double cell_m = 0;
   double start_interval_s = 60;
-  double truth_spacing_m = 0.1;
+  double truth_spacing_m = 0;
   int loop_pairs = 1200;
 
   void visit(OptionVisitor& v);
@@ -67,6 +67,9 @@ struct SimConfig {
   /** The complete ini; reads back to the same. */
   std::string text() const;
   double totalLength() const;
+  /** Those of the world where `[world]` says 0. */
+  double cellM() const { return world.cell_m > 0 ? world.cell_m : kind->cell_m; }
+  double truthSpacingM() const;
 };
 
 }  // namespace lamp
