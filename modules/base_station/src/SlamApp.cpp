@@ -9,13 +9,12 @@
 #include <thread>
 
 #include "lamp/base_station/SlamRun.h"
+#include "lamp/core/Program.h"
 #include "lamp/core/Version.h"
 
 namespace lamp {
 
 namespace {
-
-constexpr int kOk = 0, kFailed = 1, kWrongUse = 2;
 
 std::atomic<bool> interrupted{false};
 
@@ -96,57 +95,46 @@ SlamConfig readConfig(const Arguments& arguments) {
   return SlamConfig::fromFile(arguments.config, overrides, arguments.rawlogs);
 }
 
-int run(const Arguments& arguments) {
-  registerAllClasses_lamp();
+/** \return whether the arguments ask for information only, which is printed. */
+bool inform(const Arguments& arguments) {
   if (arguments.dump_parameters) {
     std::cout << describeParameters();
-    return kOk;
+    return true;
   }
-  if (arguments.config.empty()) {
-    if (arguments.list_modules) {
-      std::cout << listStages();
-      return kOk;
-    }
-    std::cerr << "lamp-slam: name an ini, for example: lamp-slam ini/default.ini RAWLOG --out DIR\n"
-                 "Run with --help for all options.\n";
-    return kWrongUse;
+  if (arguments.list_modules && arguments.config.empty()) {
+    std::cout << listStages();
+    return true;
   }
+  return false;
+}
+
+void run(const Arguments& arguments) {
+  registerAllClasses_lamp();
+  if (inform(arguments)) return;
+  if (arguments.config.empty())
+    throw UsageError(
+        "name an ini, for example: lamp-slam ini/default.ini RAWLOG --out DIR\n"
+        "Run with --help for all options.");
   SlamConfig config = readConfig(arguments);
+  // After reading, which may have loaded plugins with further stages.
   if (arguments.list_modules || arguments.dump_config) {
     std::cout << (arguments.list_modules ? listStages() : config.text());
-    return kOk;
+    return;
   }
-  if (arguments.out.empty()) {
-    std::cerr << "lamp-slam: say where the results go: --out DIR\n";
-    return kWrongUse;
-  }
+  if (arguments.out.empty()) throw UsageError("say where the results go: --out DIR");
   ::signal(SIGINT, onInterrupt);
   SlamRun slam(std::move(config), {arguments.out, arguments.threads}, interrupted);
   slam.setMinLoggingLevel(kLevels.at(arguments.log));
   std::cout << runLogged(slam);
-  return kOk;
 }
 
 }  // namespace
 
 int slamApp(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app;
+  CLI::App app("", "lamp-slam");
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kWrongUse;
-  }
-  try {
-    return run(arguments);
-  } catch (const ConfigError& error) {
-    std::cerr << "lamp-slam: the configuration has faults:\n" << error.what() << "\n";
-    return kWrongUse;
-  } catch (const std::exception& error) {
-    std::cerr << "lamp-slam: " << error.what() << "\n";
-    return kFailed;
-  }
+  return runProgram(app, argc, argv, [&] { run(arguments); });
 }
 
 }  // namespace lamp

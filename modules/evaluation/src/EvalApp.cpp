@@ -8,14 +8,13 @@
 #include "Pictures.h"
 #include "ReportJson.h"
 #include "lamp/core/Files.h"
+#include "lamp/core/Program.h"
 #include "lamp/core/Progress.h"
 #include "lamp/core/Version.h"
 
 namespace lamp {
 
 namespace {
-
-constexpr int kOk = 0, kFailed = 1, kWrongUse = 2;
 
 struct Arguments {
   std::vector<std::string> runs;
@@ -51,15 +50,14 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_flag("--no-pictures", arguments.no_pictures, "Only figures");
 }
 
-/** What is wrong with the combination of options, or an empty text. */
-std::string wrongUse(const Arguments& arguments) {
+/** \throws UsageError for a combination of options that makes no sense. */
+void checkUse(const Arguments& arguments) {
   if (arguments.truth.empty() && arguments.relations.empty())
-    return "say what to compare with: --truth DIR, or --relations FILE --stamps FILE";
+    throw UsageError("say what to compare with: --truth DIR, or --relations FILE --stamps FILE");
   if (arguments.relations.empty() != arguments.stamps.empty())
-    return "--relations and --stamps go together";
+    throw UsageError("--relations and --stamps go together");
   if (arguments.runs.size() > 1 && arguments.out.empty())
-    return "say where the comparison of several runs goes: --out DIR";
-  return "";
+    throw UsageError("say where the comparison of several runs goes: --out DIR");
 }
 
 /** Names of the runs' folders; whole paths where those are not unique. */
@@ -109,7 +107,8 @@ std::vector<RunEvaluation> evaluateRuns(const Arguments& arguments, const Evalua
   return runs;
 }
 
-int run(const Arguments& arguments) {
+void run(const Arguments& arguments) {
+  checkUse(arguments);
   const EvaluationInput input = inputOf(arguments);
   const std::string out =
       arguments.out.empty() ? arguments.runs.front() + "/evaluation" : arguments.out;
@@ -125,30 +124,15 @@ int run(const Arguments& arguments) {
     for (const std::string& warning : drawPictures(runs, out + "/plots"))
       std::cerr << "lamp-eval: " << warning << "\n";
   std::cout << (arguments.json == "-" ? json : markdown);
-  return kOk;
 }
 
 }  // namespace
 
 int evalApp(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app;
+  CLI::App app("", "lamp-eval");
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kWrongUse;
-  }
-  if (const std::string wrong = wrongUse(arguments); !wrong.empty()) {
-    std::cerr << "lamp-eval: " << wrong << "\n";
-    return kWrongUse;
-  }
-  try {
-    return run(arguments);
-  } catch (const std::exception& error) {
-    std::cerr << "lamp-eval: " << error.what() << "\n";
-    return kFailed;
-  }
+  return runProgram(app, argc, argv, [&] { run(arguments); });
 }
 
 }  // namespace lamp

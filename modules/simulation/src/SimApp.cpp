@@ -4,14 +4,13 @@
 #include <iostream>
 #include <thread>
 
+#include "lamp/core/Program.h"
 #include "lamp/core/Version.h"
 #include "lamp/simulation/SimRun.h"
 
 namespace lamp {
 
 namespace {
-
-constexpr int kOk = 0, kFailed = 1, kWrongUse = 2;
 
 struct Arguments {
   std::string world;
@@ -69,40 +68,23 @@ SimConfig readConfig(const Arguments& arguments) {
   return SimConfig(worldKind(arguments.world), ini, std::move(faults));
 }
 
-int run(const Arguments& arguments) {
+void run(const Arguments& arguments) {
   const SimConfig config = readConfig(arguments);
   if (arguments.dump_config) {
     std::cout << config.text();
-    return kOk;
+    return;
   }
-  if (arguments.job.out.empty()) {
-    std::cerr << "lamp-sim: say where the results go: --out DIR\n";
-    return kWrongUse;
-  }
+  if (arguments.job.out.empty()) throw UsageError("say where the results go: --out DIR");
   std::cout << simulate(config, arguments.job);
-  return kOk;
 }
 
 }  // namespace
 
 int simApp(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app;
+  CLI::App app("", "lamp-sim");
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kWrongUse;
-  }
-  try {
-    return run(arguments);
-  } catch (const ConfigError& error) {
-    std::cerr << "lamp-sim: the configuration has faults:\n" << error.what() << "\n";
-    return kWrongUse;
-  } catch (const std::exception& error) {
-    std::cerr << "lamp-sim: " << error.what() << "\n";
-    return kFailed;
-  }
+  return runProgram(app, argc, argv, [&] { run(arguments); });
 }
 
 }  // namespace lamp
