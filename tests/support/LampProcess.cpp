@@ -42,17 +42,19 @@ class Redirection {
 
 }  // namespace
 
-LampProcess::LampProcess(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {LAMP_SLAM};
+LampProcess::LampProcess(const std::string& program, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {program};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const int error =
-      ::posix_spawn(&pid_, LAMP_SLAM, Redirection(outputs_).get(), nullptr, argv.data(), environ);
-  if (error != 0)
-    throw std::runtime_error(std::string("cannot run " LAMP_SLAM ": ") + std::strerror(error));
+  const int error = ::posix_spawn(&pid_, program.c_str(), Redirection(outputs_).get(), nullptr,
+                                  argv.data(), environ);
+  if (error != 0) throw std::runtime_error("cannot run " + program + ": " + std::strerror(error));
 }
+
+LampProcess::LampProcess(const std::vector<std::string>& arguments)
+    : LampProcess(LAMP_SLAM, arguments) {}
 
 LampProcess::~LampProcess() {
   if (!isRunning()) return;
@@ -81,6 +83,10 @@ LampResult LampProcess::wait() {
 
 LampResult runLamp(const std::vector<std::string>& arguments) {
   return LampProcess(arguments).wait();
+}
+
+LampResult runSimulator(const std::vector<std::string>& arguments) {
+  return LampProcess(LAMP_SIM, arguments).wait();
 }
 
 }  // namespace lamp::test

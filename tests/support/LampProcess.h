@@ -9,15 +9,17 @@
 
 namespace lamp::test {
 
-/** How a run of lamp-slam ended. */
+/** How a run of one of our programs ended. */
 struct LampResult {
   int exit_code = -1;  ///< -1 if a signal ended it
   std::string out, err;
 };
 
-/** The real program lamp-slam, running. */
+/** One of the real programs, running. */
 class LampProcess {
  public:
+  LampProcess(const std::string& program, const std::vector<std::string>& arguments);
+  /** lamp-slam. */
   explicit LampProcess(const std::vector<std::string>& arguments);
   /** Kills it if nobody has waited for it. */
   ~LampProcess();
@@ -37,5 +39,7 @@ class LampProcess {
 
 /** Runs lamp-slam to its end. */
 LampResult runLamp(const std::vector<std::string>& arguments);
+/** Runs lamp-sim to its end. */
+LampResult runSimulator(const std::vector<std::string>& arguments);
 
 }  // namespace lamp::test

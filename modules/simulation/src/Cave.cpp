@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 const WallStyle kCaveWall{0.55, 1.0, 0.25, 2.5, Material::kRock};
 
 PassageStyle passageStyle(Random& random) {
-  const double width = uniform(random, 3.6, 6.5), height = uniform(random, 3.0, 5.0);
+  const double width = uniform(random, 4.4, 6.5), height = uniform(random, 3.0, 5.0);
   return {width, height, 0.42 * std::min(width, height), kCaveWall};
 }
 

@@ -15,10 +15,17 @@ using Eigen::Vector3d;
 
 /** Clearance that a robot needs beside the middle of its way. */
 constexpr double kClearanceM = 1.2;
+/** ... and around a corner that it cuts. */
+constexpr double kCornerClearanceM = 2.0;
 constexpr double kGateM = 4.0;
 
 Pose3 poseAt(const Vector3d& position, double yaw) {
   return poseFromYawPitchRoll((Vector6d() << position, yaw, 0, 0).finished());
+}
+
+/** How far rock stands out into a passage at most: noise hardly goes beyond 0.7. */
+double bulgeOf(const WallStyle& wall) {
+  return 0.7 * (1.5 * wall.roughness_m + wall.waviness_m);
 }
 
 }  // namespace
@@ -33,7 +40,7 @@ size_t WorldBuilder::addPassage(size_t from, size_t to, const PassageStyle& styl
   Passage passage;
   passage.from = from;
   passage.to = to;
-  passage.width_m = style.width_m;
+  passage.width_m = std::max(1.0, style.width_m - 2 * bulgeOf(style.wall));
   passage.floor = {world_.layout.places[from]};
   passage.floor.insert(passage.floor.end(), between.begin(), between.end());
   passage.floor.push_back(world_.layout.places[to]);
@@ -79,6 +86,13 @@ void WorldBuilder::addRoom(const Vector3d& floor, const Vector3d& size, double y
   space_.add(hollow);
 }
 
+void WorldBuilder::addSolid(const Mesh& solid) {
+  Eigen::AlignedBox3d around;
+  for (const Eigen::Vector3f& vertex : solid.vertices) around.extend(vertex.cast<double>());
+  solids_.push_back(around);
+  world_.mesh.append(solid);
+}
+
 void WorldBuilder::addLookAlikes(std::vector<Vector3d> spots) {
   world_.layout.look_alikes.push_back(std::move(spots));
 }
@@ -101,6 +115,21 @@ bool WorldBuilder::isDriven(const Vector3d& p, double clearance_m) const {
   return world_.layout.distanceToPassages(p) < clearance_m;
 }
 
+bool WorldBuilder::isAtCorner(const Vector3d& p, double clearance_m) const {
+  const auto& places = world_.layout.places;
+  return std::any_of(places.begin(), places.end(),
+                     [&](const Vector3d& place) { return (place - p).norm() < clearance_m; });
+}
+
+bool WorldBuilder::isFree(const Vector3d& p, double clearance_m) const {
+  const FreeSpace::Parts parts = space_.partsIn({p, p});
+  if (parts.hollows.empty()) return false;
+  if (space_.rough(p, space_.smooth(p, parts)) > -clearance_m) return false;
+  return std::none_of(solids_.begin(), solids_.end(), [&](const Eigen::AlignedBox3d& solid) {
+    return solid.squaredExteriorDistance(p) < clearance_m * clearance_m;
+  });
+}
+
 void WorldBuilder::addRubble(size_t passage, double spacing_m, double largest_m) {
   const double length = world_.layout.passages[passage].length();
   const double wall = 0.5 * styleOf(passage).width_m;
@@ -110,7 +139,9 @@ void WorldBuilder::addRubble(size_t passage, double spacing_m, double largest_m)
     const double side = chance(random_, 0.5) ? 1.0 : -1.0;
     const Vector3d foot = alongPassage(passage, at / length) *
                           Vector3d(0, side * (wall - uniform(random_, 0.0, 0.5)), 0);
-    if (!isDriven(foot, kClearanceM + radius)) addSolid(boulder(foot, radius, random_));
+    const double reach = 1.5 * radius;  // of the widest boulder
+    if (!isDriven(foot, kClearanceM + reach) && !isAtCorner(foot, kCornerClearanceM + reach))
+      addSolid(boulder(foot, radius, random_));
   }
 }
 
@@ -155,6 +186,8 @@ void WorldBuilder::addSupports(size_t passage, double spacing_m) {
 
 void WorldBuilder::addDoorFrame(size_t passage, double share, double width_m, double height_m) {
   const PassageStyle& style = styleOf(passage);
+  double& drivable = world_.layout.passages[passage].width_m;
+  drivable = std::min(drivable, width_m);
   const Pose3 middle = alongPassage(passage, share);
   const double beside = 0.5 * (style.width_m - width_m) + 0.3;
   for (const double side : {-1.0, 1.0})
@@ -218,11 +251,16 @@ void WorldBuilder::addGate() {
 void WorldBuilder::addArtifacts(int count) {
   static const char* const kKinds[] = {"backpack",     "survivor", "phone", "drill",
                                        "extinguisher", "helmet",   "rope"};
-  for (int i = 0; i < count; ++i) {
+  constexpr double kClearM = 0.1;
+  const auto somewhere = [&] {
     const size_t passage = pick(random_, styles_.size());
     const double side = uniform(random_, -1, 1) * (0.5 * styleOf(passage).width_m - 0.6);
-    const Vector3d at = alongPassage(passage, uniform(random_, 0.1, 0.9)) *
-                        Vector3d(0, side, uniform(random_, 0.2, 1.0));
+    return Vector3d(alongPassage(passage, uniform(random_, 0.1, 0.9)) *
+                    Vector3d(0, side, uniform(random_, 0.2, 1.0)));
+  };
+  for (int i = 0; i < count; ++i) {
+    Vector3d at = somewhere();
+    for (int attempt = 0; attempt < 100 && !isFree(at, kClearM); ++attempt) at = somewhere();
     world_.artifacts.push_back({i, kKinds[static_cast<size_t>(i) % std::size(kKinds)], at});
   }
 }

@@ -33,7 +33,7 @@ class WorldBuilder {
   void addRoom(const Eigen::Vector3d& floor, const Eigen::Vector3d& size, double yaw,
                const WallStyle& wall);
   void addPillar(const Pillar& pillar) { space_.add(pillar); }
-  void addSolid(const Mesh& solid) { world_.mesh.append(solid); }
+  void addSolid(const Mesh& solid);
   void addLookAlikes(std::vector<Eigen::Vector3d> spots);
 
   /** Boulders, about one every `spacing_m`, along the foot of a passage's walls. */
@@ -43,7 +43,8 @@ class WorldBuilder {
   void addPipe(size_t passage, double height_m, double radius_m, int side);
   /** Props of timber or steel across a passage, every `spacing_m`: posts and a cap. */
   void addSupports(size_t passage, double spacing_m);
-  /** A frame that narrows a passage to a door at `share` of its length. */
+  /** A frame that narrows a passage to a door at `share` of its length; so wide is the passage
+   * then for those who drive it. */
   void addDoorFrame(size_t passage, double share, double width_m, double height_m);
   /** Crates and cabinets at random spots around a floor point, as far as `reach_m`. */
   void addClutter(const Eigen::Vector3d& floor, double reach_m, int count, Random& random);
@@ -63,11 +64,16 @@ class WorldBuilder {
   /** A point of a passage's middle, and the direction there. */
   Pose3 alongPassage(size_t passage, double share) const;
   bool isDriven(const Eigen::Vector3d& p, double clearance_m) const;
+  /** Where robots may cut the corner from one passage into another. */
+  bool isAtCorner(const Eigen::Vector3d& p, double clearance_m) const;
+  /** In free space, and in none of the things that were added. */
+  bool isFree(const Eigen::Vector3d& p, double clearance_m) const;
 
   World world_;
   FreeSpace space_;
   Random random_;
-  std::vector<PassageStyle> styles_;  ///< of layout().passages
+  std::vector<PassageStyle> styles_;         ///< of layout().passages
+  std::vector<Eigen::AlignedBox3d> solids_;  ///< boxes around what was added
 };
 
 }  // namespace lamp

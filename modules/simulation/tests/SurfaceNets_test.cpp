@@ -81,8 +81,8 @@ TEST(SurfaceNets, NoRayEscapes) {
 TEST(SurfaceNets, MeshDoesNotDependOnTheNumberOfThreads) {
   const FreeSpace space = roughCrossing();
   Mesh one, two;
-  tbb::task_arena(1).execute([&] { one = wallMesh(space, kCell); });
-  tbb::task_arena(2).execute([&] { two = wallMesh(space, kCell); });
+  tbb::task_arena(1).execute([&] { one = wallMesh(space, 0.3); });
+  tbb::task_arena(2).execute([&] { two = wallMesh(space, 0.3); });
   EXPECT_TRUE(sameMesh(one, two));
 }
 

@@ -33,8 +33,8 @@ std::vector<std::string> kindNames() {
 class DrivenWorld {
  public:
   DrivenWorld(const WorldKind& kind, uint64_t seed)
-      : world_(kind.make(lengthOf(kind), 2 * kind.cell_m, seed)), caster_(world_.mesh) {
-    for (const auto& route : planRoutes(world_.layout, {150, 150, 150}, seed))
+      : world_(kind.make(lengthOf(kind), 2.5 * kind.cell_m, seed)), caster_(world_.mesh) {
+    for (const auto& route : planRoutes(world_.layout, {220, 220, 220}, seed))
       drives_.push_back(drive(route, caster_, DriveOptions(), 0, seed));
   }
 
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(All, Worlds, testing::ValuesIn(kindNames()),
 
 // One test for all of it: a world takes longer to make than to look at.
 TEST_P(Worlds, AreClosedAndCanBeDriven) {
-  for (const uint64_t seed : {1, 7}) {
+  for (const uint64_t seed : {7, 11}) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const DrivenWorld world(kind(), seed);
     world.expectClosed();
