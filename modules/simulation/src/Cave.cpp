@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-const WallStyle kCaveWall{0.55, 1.0, 0.25, 2.5, Material::kRock};
+const WallStyle kCaveWall{0.55, 1.0, 0.12, 2.5, Material::kRock};
 
 PassageStyle passageStyle(Random& random) {
   const double width = uniform(random, 4.4, 6.5), height = uniform(random, 3.0, 5.0);
@@ -45,9 +45,12 @@ void addCave(double ways_m, size_t gate, double lead_m, WorldBuilder& builder) {
       const Vector3d end = here + Vector3d(out.x(), out.y(), 0) * uniform(random, 8, 13);
       passages.push_back(builder.addPassage(ring[i], builder.addPlace(end), passageStyle(random)));
     }
+    // Every bend opens into a chamber, or robots that cut the corner would hit rock.
     if (i % 4 == 2)
       builder.addRoom(here, {uniform(random, 9, 14), uniform(random, 8, 12), uniform(random, 5, 7)},
                       uniform(random, 0, M_PI), kCaveWall);
+    else
+      builder.addRoom(here, {7.5, 7.5, 4.2}, uniform(random, 0, M_PI), kCaveWall);
   }
   if (count >= 8)
     passages.push_back(builder.addPassage(ring[2], ring[ring.size() - 2], passageStyle(random)));

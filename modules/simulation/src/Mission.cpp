@@ -18,6 +18,7 @@ MissionRobot makeRobot(const SimConfig& config, const SimulatedRobotOptions& opt
       seed,
       TrajectoryInterpolator(drive(route, caster, options.drive, start, mixSeeds({seed, 1}))),
       {},
+      0,
       {},
       {},
       options.lidars,
@@ -30,13 +31,13 @@ MissionRobot makeRobot(const SimConfig& config, const SimulatedRobotOptions& opt
   OdometryOptions odometry = options.odometry;
   odometry.rate_hz = config.lidars.at(options.lidars.front()).rate_hz;
   robot.odometry = simulateOdometry(robot.truth, odometry, mixSeeds({seed, 2}));
-  // The last sweep must end before the truth does.
+  // Scans are those whose sweeps end before the truth does.
   const double last = robot.truth.end() - 1.0 / odometry.rate_hz;
-  while (robot.odometry.odom_T_base.size() > 1 && robot.odometry.odom_T_base.back().stamp > last) {
-    robot.odometry.odom_T_base.pop_back();
-    robot.odometry.covariances.pop_back();
-  }
-  robot.key_nodes = selectKeyNodes(robot.odometry.odom_T_base, config.keyed);
+  const std::vector<StampedPose>& poses = robot.odometry.odom_T_base;
+  robot.scans = poses.size();
+  while (robot.scans > 1 && poses[robot.scans - 1].stamp > last) --robot.scans;
+  robot.key_nodes = selectKeyNodes(
+      {poses.begin(), poses.begin() + static_cast<ptrdiff_t>(robot.scans)}, config.keyed);
   robot.imu = simulateImu(robot.truth, config.imu, mixSeeds({seed, 3}));
   return robot;
 }
@@ -51,7 +52,7 @@ std::vector<double> keyStamps(const MissionRobot& robot) {
 
 std::vector<double> MissionRobot::scanStamps() const {
   std::vector<double> stamps;
-  for (const StampedPose& pose : odometry.odom_T_base) stamps.push_back(pose.stamp);
+  for (size_t i = 0; i < scans; ++i) stamps.push_back(odometry.odom_T_base[i].stamp);
   return stamps;
 }
 

@@ -60,7 +60,10 @@ World makeDemo(double length_m, double cell_m, uint64_t seed) {
   WorldBuilder builder(seed);
   const double scale = std::clamp(length_m / 150, 0.7, 4.0);
   const auto place = [&](double x, double y) {
-    return builder.addPlace(scale * Vector3d(x, y, 0));
+    const bool gate = x == 0;
+    const Vector3d jitter(uniform(builder.random(), -1.5, 1.5),
+                          uniform(builder.random(), -1.5, 1.5), 0);
+    return builder.addPlace(scale * (Vector3d(x, y, 0) + (gate ? Vector3d(0, 0, 0) : jitter)));
   };
   const PassageStyle drive{3.4, 2.7, 0.4, {0.15, 0.15, 0.3, 0.8, Material::kRock}};
   const size_t gate = place(0, 0), a = place(11, 0), b = place(24, 1), c = place(23, 13),

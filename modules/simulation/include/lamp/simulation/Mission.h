@@ -12,7 +12,8 @@ struct MissionRobot {
   std::string name;
   uint64_t seed;                  ///< of everything random about this robot
   TrajectoryInterpolator truth;   ///< world_T_base
-  SimulatedOdometry odometry;     ///< one pose a lidar scan
+  SimulatedOdometry odometry;     ///< one pose a lidar scan, and a few more
+  size_t scans;                   ///< how many whole scans there are
   std::vector<size_t> key_nodes;  ///< places in odometry.odom_T_base
   std::vector<Lidar> lidars;      ///< in the order of `lidar_names`; the first one leads
   std::vector<std::string> lidar_names;
@@ -21,7 +22,7 @@ struct MissionRobot {
   std::vector<Sighting> sightings;
   std::vector<double> arrivals;  ///< stamp at which each key node reaches the base
 
-  /** Stamps of the sweeps that are whole. */
+  /** Stamps of the scans. */
   std::vector<double> scanStamps() const;
   double stampOf(size_t key_node) const { return odometry.odom_T_base[key_nodes[key_node]].stamp; }
 };

@@ -16,8 +16,8 @@ struct Leg {
 
 /** The way of each robot of a team through a layout, from the gate. Each robot prefers passages
  * that it has seen least, and to a lesser degree those that its team has seen least, so that ways
- * explore, close loops and overlap; it turns back at dead ends and returns to the gate, if that is
- * no farther than `length_m` allows. */
+ * explore, close loops and overlap; it turns back at dead ends and, in time to use up `length_m`,
+ * to the gate. */
 std::vector<std::vector<Leg>> planRoutes(const Layout& layout, const std::vector<double>& length_m,
                                          uint64_t seed);
 
