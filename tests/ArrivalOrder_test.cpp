@@ -49,16 +49,10 @@ class InArrivalOrder : public testing::Test {
     return robot.record3d(world);
   }
 
-  /** From the folder where the program runs, as a user would type it. */
-  std::string relativePath(const std::string& name) const {
-    return std::filesystem::relative(experiment_.path(name)).string();
-  }
-
   std::string ini() const {
-    return iniFor3d("Ply", startSection("A", a_.truth.front().pose) +
-                               "arrivals = " + relativePath("A.arrivals.csv") + "\n" +
-                               startSection("B", b_.truth.front().pose) +
-                               "arrivals = " + relativePath("B.arrivals.csv") + "\n");
+    return iniFor3d("Ply",
+                    startSection("A", a_.truth.front().pose) + "arrivals = A.arrivals.csv\n" +
+                        startSection("B", b_.truth.front().pose) + "arrivals = B.arrivals.csv\n");
   }
 
   LampResult run(const std::string& name, const std::vector<std::string>& more = {},

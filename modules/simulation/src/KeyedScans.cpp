@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_set>
 
 namespace lamp {
@@ -46,10 +47,12 @@ uint64_t voxelKey(const Eigen::Vector3f& point, float leaf_m) {
   return (part(point.x()) << 38) | (part(point.y()) << 19) | part(point.z());
 }
 
-std::vector<size_t> firstOfVoxels(const Scan& scan, float leaf_m) {
+/** Of the points in `among`, the first in each voxel. */
+std::vector<size_t> firstOfVoxels(const Scan& scan, const std::vector<size_t>& among,
+                                  float leaf_m) {
   std::unordered_set<uint64_t> taken;
   std::vector<size_t> kept;
-  for (size_t i = 0; i < scan.size(); ++i)
+  for (const size_t i : among)
     if (taken.insert(voxelKey(scan.points[i], leaf_m)).second) kept.push_back(i);
   return kept;
 }
@@ -68,11 +71,13 @@ void markSeen(const LidarSweep& sweep, SeenTriangles& seen) {
 
 Scan thinned(const Scan& scan, size_t max_points) {
   float leaf_m = 0.1f;
-  std::vector<size_t> kept = firstOfVoxels(scan, leaf_m);
+  std::vector<size_t> kept(scan.size());
+  std::iota(kept.begin(), kept.end(), size_t{0});
+  kept = firstOfVoxels(scan, kept, leaf_m);
   while (kept.size() > max_points) {
-    // Points on surfaces: their number falls with the square of the leaf.
-    leaf_m *= 1.02f * std::sqrt(static_cast<float>(kept.size()) / static_cast<float>(max_points));
-    kept = firstOfVoxels(scan, leaf_m);
+    // The number falls with the square of the leaf on surfaces, and with its cube at most.
+    leaf_m *= 1.02f * std::cbrt(static_cast<float>(kept.size()) / static_cast<float>(max_points));
+    kept = firstOfVoxels(scan, kept, leaf_m);
   }
   Scan result;
   result.sensors = scan.sensors;

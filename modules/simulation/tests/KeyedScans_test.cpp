@@ -55,14 +55,14 @@ TEST(Thinned, LeavesAsManyPointsAsAskedAndNotManyLess) {
   }
 }
 
-TEST(Thinned, KeepsTheFirstOfEachVoxelAndSensor) {
+TEST(Thinned, KeepsTheFirstOfEachVoxelWhicheverSensorSawIt) {
   Scan scan;
   scan.sensors.resize(2);
   scan.points = {
       {0.01f, 0.01f, 0.01f}, {0.02f, 0.05f, 0.09f}, {0.03f, 0.03f, 0.03f}, {-0.01f, 0.01f, 0.01f}};
   scan.intensity = {0, 1, 2, 3};
   scan.sensor = {0, 0, 1, 0};
-  EXPECT_EQ(thinned(scan, 100).intensity, (std::vector<float>{0, 2, 3}));
+  EXPECT_EQ(thinned(scan, 100).intensity, (std::vector<float>{0, 3}));
 }
 
 TEST(Thinned, OfNoPoints) {
