@@ -113,7 +113,8 @@ TEST_F(Simulator, RawRecordingsHoldAllSensorsAtFullRate) {
   const auto scans = static_cast<int>(readTum(path("world/truth/alpha.tum")).size());
   EXPECT_GE(scans, 60);
   EXPECT_EQ(counts["alpha/top"], scans);
-  EXPECT_EQ(counts["alpha/odom"], scans);
+  EXPECT_GE(counts["alpha/odom"], scans);
+  EXPECT_LE(counts["alpha/odom"], scans + 2) << "the last sweep is covered, too";
   EXPECT_NEAR(counts["alpha/imu"], 10 * scans, 15);
   int clouds = 0;
   for (const auto& observation : observations)

@@ -88,6 +88,10 @@ Vector3d FreeSpace::localOf(size_t i, const Vector3d& p) const {
           p.z() - floor};
 }
 
+double FreeSpace::aboveFloor(size_t hollow, const Vector3d& p) const {
+  return std::clamp(localOf(hollow, p).z() / 0.6, 0.0, 1.0);
+}
+
 double FreeSpace::distanceTo(size_t i, const Vector3d& p) const {
   const Hollow& hollow = hollows_[i];
   const Vector3d local = localOf(i, p);
@@ -111,6 +115,7 @@ FreeSpace::Sample FreeSpace::smooth(const Vector3d& p, const Parts& parts) const
     }
   }
   const double blend =
+      aboveFloor(nearest.hollow, p) *
       std::min(hollows_[nearest.hollow].style.blend_m, hollows_[second.hollow].style.blend_m);
   if (const double overlap = blend - (second.distance_m - nearest.distance_m); overlap > 0)
     nearest.distance_m -= overlap * overlap / (4 * blend);
@@ -124,9 +129,7 @@ double FreeSpace::rough(const Vector3d& p, const Sample& sample) const {
   // Away from the wall roughness decides nothing, and noise takes time.
   constexpr double kSlackM = 0.6;
   if (std::abs(sample.distance_m) > roughnessOf(style) + kSlackM) return sample.distance_m;
-  // Floors are trodden flatter than walls; the change is gradual from 0 to 0.6 m above them.
-  const double above = std::clamp(localOf(sample.hollow, p).z() / 0.6, 0.0, 1.0);
-  const double share = style.floor_share + (1.0 - style.floor_share) * above;
+  const double share = style.floor_share + (1.0 - style.floor_share) * aboveFloor(sample.hollow, p);
   double change = 0;
   if (style.roughness_m > 0) change += style.roughness_m * noise_.fractal(p, kBumpsM, kBumpOctaves);
   if (style.waviness_m > 0) change += style.waviness_m * noise_.at(p, kWavesM);

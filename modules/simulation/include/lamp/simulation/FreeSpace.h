@@ -75,6 +75,9 @@ class FreeSpace {
   };
   /** Coordinates of a point in a hollow: along from its middle, across, above the floor. */
   Eigen::Vector3d localOf(size_t hollow, const Eigen::Vector3d& p) const;
+  /** Floors are trodden flatter than walls, and do not flow into one another: 0 up to the floor, 1
+   * from 0.6 m above it. */
+  double aboveFloor(size_t hollow, const Eigen::Vector3d& p) const;
   double distanceTo(size_t hollow, const Eigen::Vector3d& p) const;
 
   Noise noise_;
