@@ -49,8 +49,9 @@ void addRadioAndArtifacts(const MissionRobot& robot, const Mission& mission,
   for (const RssiReading& reading : robot.rssi)
     timeline.add(reading.stamp, rssiObservation(reading, mission.beacons[reading.beacon],
                                                 robot.name, config.radio.antenna_m));
-  for (const Sighting& sighting : robot.sightings)
-    timeline.add(sighting.stamp, artifactObservation(sighting, config.artifacts, robot.name));
+  for (const auto& observation :
+       artifactObservations(robot.sightings, config.artifacts, robot.name))
+    timeline.add(mrpt::Clock::toDouble(observation->timestamp), observation);
 }
 
 /** The last reading at or before a stamp, or the first of all. */

@@ -14,6 +14,24 @@ namespace lamp {
 
 using namespace mrpt::obs;
 
+namespace {
+
+/** A camera's view without any artifact in it. */
+CObservationBearingRange::Ptr emptyView(const mrpt::Clock::time_point& stamp,
+                                        const ArtifactOptions& options, const std::string& robot) {
+  const auto angle_sigma = static_cast<float>(options.angle_sigma_deg * M_PI / 180.0);
+  auto observation = CObservationBearingRange::Create();
+  observation->sensorLabel = robot + "/artifact";
+  observation->timestamp = stamp;
+  observation->sensorLocationOnRobot = mrpt::poses::CPose3D(0, 0, options.camera_m, 0, 0, 0);
+  observation->maxSensorDistance = static_cast<float>(options.range_m);
+  observation->sensor_std_range = static_cast<float>(options.range_sigma_m);
+  observation->sensor_std_yaw = observation->sensor_std_pitch = angle_sigma;
+  return observation;
+}
+
+}  // namespace
+
 std::shared_ptr<CObservationRobotPose> odometryObservation(const SimulatedOdometry& odometry,
                                                            size_t index, const std::string& robot) {
   const StampedPose& sample = odometry.odom_T_base.at(index);
@@ -53,25 +71,23 @@ std::shared_ptr<CObservationWirelessPower> rssiObservation(const RssiReading& re
   return observation;
 }
 
-std::shared_ptr<CObservationBearingRange> artifactObservation(const Sighting& sighting,
-                                                              const ArtifactOptions& options,
-                                                              const std::string& robot) {
-  const auto angle_sigma = static_cast<float>(options.angle_sigma_deg * M_PI / 180.0);
-  auto observation = CObservationBearingRange::Create();
-  observation->sensorLabel = robot + "/artifact";
-  observation->timestamp = stampToMrpt(sighting.stamp);
-  observation->sensorLocationOnRobot = mrpt::poses::CPose3D(0, 0, options.camera_m, 0, 0, 0);
-  observation->maxSensorDistance = static_cast<float>(options.range_m);
-  observation->sensor_std_range = static_cast<float>(options.range_sigma_m);
-  observation->sensor_std_yaw = observation->sensor_std_pitch = angle_sigma;
-  CObservationBearingRange::TMeasurement measurement;
-  measurement.range = static_cast<float>(sighting.range_m);
-  measurement.yaw = static_cast<float>(sighting.yaw_rad);
-  measurement.pitch = static_cast<float>(sighting.pitch_rad);
-  measurement.landmarkID = sighting.id;
-  measurement.covariance.setZero();  // not used, but written
-  observation->sensedData.push_back(measurement);
-  return observation;
+std::vector<std::shared_ptr<CObservationBearingRange>> artifactObservations(
+    const std::vector<Sighting>& sightings, const ArtifactOptions& options,
+    const std::string& robot) {
+  std::vector<std::shared_ptr<CObservationBearingRange>> observations;
+  for (const Sighting& sighting : sightings) {
+    const auto stamp = stampToMrpt(sighting.stamp);
+    if (observations.empty() || observations.back()->timestamp != stamp)
+      observations.push_back(emptyView(stamp, options, robot));
+    CObservationBearingRange::TMeasurement measurement;
+    measurement.range = static_cast<float>(sighting.range_m);
+    measurement.yaw = static_cast<float>(sighting.yaw_rad);
+    measurement.pitch = static_cast<float>(sighting.pitch_rad);
+    measurement.landmarkID = sighting.id;
+    measurement.covariance.setZero();  // not used, but written
+    observations.back()->sensedData.push_back(measurement);
+  }
+  return observations;
 }
 
 }  // namespace lamp

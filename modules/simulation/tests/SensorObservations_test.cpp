@@ -69,7 +69,9 @@ TEST(SensorObservations, PowerIsAHundredLessThePathLoss) {
 
 TEST(SensorObservations, AnArtifactIsALandmark) {
   const Sighting sighting{kBegin, 7, 5.0, 0.3, 0.1};
-  const auto o = artifactObservation(sighting, {}, "husky1");
+  const auto all = artifactObservations({sighting}, {}, "husky1");
+  ASSERT_EQ(all.size(), 1u);
+  const auto& o = all[0];
   EXPECT_EQ(o->sensorLabel, "husky1/artifact");
   ASSERT_EQ(o->sensedData.size(), 1u);
   EXPECT_EQ(o->sensedData[0].landmarkID, 7);
@@ -78,6 +80,15 @@ TEST(SensorObservations, AnArtifactIsALandmark) {
   const auto p = (mrpt::poses::CPose3D(0, 0, 0, o->sensedData[0].yaw, o->sensedData[0].pitch, 0))
                      .composePoint({5.0, 0, 0});
   EXPECT_LT(p.z, 0) << "a positive pitch is below the camera";
+}
+
+TEST(SensorObservations, WhatIsSeenAtOneStampIsOneObservation) {
+  const auto all = artifactObservations(
+      {{kBegin, 7, 5.0, 0.3, 0.1}, {kBegin, 8, 6.0, 0, 0}, {kBegin + 1, 7, 4.0, 0, 0}}, {}, "r");
+  ASSERT_EQ(all.size(), 2u);
+  ASSERT_EQ(all[0]->sensedData.size(), 2u);
+  EXPECT_EQ(all[0]->sensedData[1].landmarkID, 8);
+  EXPECT_EQ(all[1]->sensedData.size(), 1u);
 }
 
 }  // namespace

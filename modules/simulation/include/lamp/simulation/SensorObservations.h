@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "lamp/simulation/Artifacts.h"
 #include "lamp/simulation/Imu.h"
@@ -32,8 +33,10 @@ std::shared_ptr<mrpt::obs::CObservationWirelessPower> rssiObservation(const Rssi
                                                                       const std::string& robot,
                                                                       double antenna_m);
 
-/** `robot/artifact`: one artifact, its id as landmarkID. */
-std::shared_ptr<mrpt::obs::CObservationBearingRange> artifactObservation(
-    const Sighting& sighting, const ArtifactOptions& options, const std::string& robot);
+/** `robot/artifact`: what is seen at one stamp is one observation, with an artifact's id as
+ * landmarkID. \param sightings by stamp. */
+std::vector<std::shared_ptr<mrpt::obs::CObservationBearingRange>> artifactObservations(
+    const std::vector<Sighting>& sightings, const ArtifactOptions& options,
+    const std::string& robot);
 
 }  // namespace lamp
