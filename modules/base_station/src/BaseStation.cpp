@@ -207,8 +207,7 @@ void BaseStation::record(const LoopClosureCandidate& candidate, const Guess& gue
     edge.from = candidate.from;
     edge.to = candidate.to;
     edge.from_T_to = attempt.result.target_T_source;
-    edge.information = attempt.result.covariance.inverse();
-    edge.information = 0.5 * (edge.information + edge.information.transpose()).eval();
+    edge.information = attempt.result.information;
     edge.verdict = Verdict::kPending;
     row.edge = graph_.addEdge(edge);
     ++loops_;

@@ -22,6 +22,29 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<fl
                                                  Adaptor, 3, uint32_t>;
 constexpr size_t kLeafSize = 10;
 
+/** The nearest point within a distance: a bound from the start prunes most of the tree for points
+ * without a partner. */
+class NearestPoint {
+ public:
+  using DistanceType = float;  ///< nanoflann asks for this name
+  explicit NearestPoint(float distance) : squared_(distance * distance) {}
+
+  bool addPoint(float squared_distance, uint32_t index) {
+    if (squared_distance < squared_) {
+      squared_ = squared_distance;
+      index_ = index;
+    }
+    return true;
+  }
+  float worstDist() const { return squared_; }
+  bool full() const { return true; }
+  size_t index() const { return index_; }
+
+ private:
+  float squared_;
+  size_t index_ = KdTree::kNone;
+};
+
 /** Ends the search at the first point with the property. */
 class FirstWithProperty {
  public:
@@ -61,16 +84,10 @@ KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 size_t KdTree::nearest(const Eigen::Vector3f& query, float max_distance,
                        float& squared_distance) const {
   if (!index_) return kNone;
-  uint32_t found = 0;
-  float squared = 0;
-  nanoflann::KNNResultSet<float, uint32_t> result(1);
-  result.init(&found, &squared);
-  // A bound from the start prunes most of the tree for points without a partner.
-  result.addPoint(max_distance * max_distance, UINT32_MAX);
+  NearestPoint result(max_distance);
   index_->tree.findNeighbors(result, query.data(), {});
-  if (found == UINT32_MAX) return kNone;
-  squared_distance = squared;
-  return found;
+  if (result.index() != kNone) squared_distance = result.worstDist();
+  return result.index();
 }
 
 void KdTree::nearest(const Eigen::Vector3f& query, size_t k, std::vector<uint32_t>& indices) const {

@@ -13,7 +13,7 @@ AlignmentResult Identity::align(const PreparedScan&, const PreparedScan&, const 
 
 AlignmentResult Odometry::align(const PreparedScan&, const PreparedScan&,
                                 const Guess& guess) const {
-  return {{{guess.target_T_source}}, ""};
+  return {{Hypothesis{guess.target_T_source}}, ""};
 }
 
 AlignmentResult OdometryRotation::align(const PreparedScan&, const PreparedScan&,

@@ -1,5 +1,7 @@
 #include "lamp/registration/LoopClosureComputation.h"
 
+#include "lamp/registration/Teaser.h"
+
 namespace lamp {
 
 LoopClosureComputation::LoopClosureComputation(
@@ -53,6 +55,7 @@ void registerAllClasses_lamp_registration() {
   mrpt::rtti::registerClass(CLASS_ID(Identity));
   mrpt::rtti::registerClass(CLASS_ID(Odometry));
   mrpt::rtti::registerClass(CLASS_ID(OdometryRotation));
+  mrpt::rtti::registerClass(CLASS_ID(Teaser));
   mrpt::rtti::registerClass(CLASS_ID(Refiner));
   mrpt::rtti::registerClass(CLASS_ID(Gicp));
   mrpt::rtti::registerClass(CLASS_ID(PointToPlane));

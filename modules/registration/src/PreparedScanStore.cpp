@@ -7,20 +7,21 @@ namespace lamp {
 void PreparationOptions::visit(OptionVisitor& v) {
   v("accumulate_neighbors", accumulate_neighbors, "key nodes",
     "neighbours on each side whose scans join the target's", kNotNegative);
-  v("normal_neighbors", normal_neighbors, "points", "nearest points that a normal is fitted to",
-    {3});
+  scan.visit(v);
 }
 
 void PreparedScanStore::add(const KeyframePacket& packet) {
   keyframes_[packet.id] = {packet.odom_T_base, packet.scan, packet.planar};
 }
 
-PreparedScanStore::Key PreparedScanStore::target(const LoopClosureCandidate& candidate) const {
-  const auto reach = static_cast<uint32_t>(options_.accumulate_neighbors);
-  Key key{candidate.from, reach, reach};
-  if (candidate.from.robot == candidate.to.robot && candidate.to.index > candidate.from.index)
-    key.after = std::min(reach, candidate.to.index - candidate.from.index - 1);
-  return key;
+PreparedScanStore::Key PreparedScanStore::key(KeyframeId id,
+                                              const LoopClosureCandidate& candidate) const {
+  auto reach = static_cast<uint32_t>(options_.accumulate_neighbors);
+  if (candidate.from.robot == candidate.to.robot) {
+    const auto [first, last] = std::minmax(candidate.from.index, candidate.to.index);
+    reach = std::min(reach, last > first ? (last - first - 1) / 2 : 0);
+  }
+  return {id, reach, reach};
 }
 
 std::vector<KeyframeId> PreparedScanStore::members(const Key& key) const {
@@ -44,12 +45,13 @@ std::vector<PreparedScanStore::Key> PreparedScanStore::missing(std::vector<Key> 
 
 PreparedScanPtr PreparedScanStore::prepare(const Key& key) const {
   const Keyframe& center = keyframes_.at(key.id);
-  std::vector<PlacedScan> scans;
+  std::vector<PlacedScan> scans{{center.scan, Pose3::Identity()}};
   for (const KeyframeId id : members(key)) {
+    if (id == key.id) continue;
     const Keyframe& keyframe = keyframes_.at(id);
     scans.push_back({keyframe.scan, center.odom_T_base.inverse() * keyframe.odom_T_base});
   }
-  return prepareScan(accumulate(scans), options_.normal_neighbors, center.planar);
+  return std::make_shared<PreparedScan>(accumulate(scans), options_.scan, center.planar);
 }
 
 void PreparedScanStore::insert(const Key& key, PreparedScanPtr prepared) {

@@ -1,30 +1,96 @@
 #include "lamp/scans/PreparedScan.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include "lamp/core/SurfaceNormals.h"
 
 namespace lamp {
 
 using Eigen::Vector3f;
 
-PreparedScanPtr prepareScan(std::vector<Vector3f> points, int normal_neighbors, bool planar) {
-  auto prepared = std::make_shared<PreparedScan>();
-  prepared->points = std::move(points);
-  prepared->planar = planar;
-  prepared->tree = std::make_unique<KdTree>(prepared->points);
-  prepared->normals = surfaceNormals(prepared->points, *prepared->tree, normal_neighbors, planar);
-  return prepared;
+namespace {
+
+constexpr float kFarthest_m = 1e6f;
+
+/** Spreads the lowest 21 bits so that two more numbers fit between them. */
+uint64_t spreadBits(uint64_t v) {
+  v &= 0x1fffff;
+  v = (v | v << 32) & 0x1f00000000ffff;
+  v = (v | v << 16) & 0x1f0000ff0000ff;
+  v = (v | v << 8) & 0x100f00f00f00f00f;
+  v = (v | v << 4) & 0x10c30c30c30c30c3;
+  v = (v | v << 2) & 0x1249249249249249;
+  return v;
 }
 
-std::vector<Vector3f> accumulate(const std::vector<PlacedScan>& scans) {
-  size_t total = 0;
-  for (const PlacedScan& placed : scans) total += placed.scan->size();
-  std::vector<Vector3f> points;
-  points.reserve(total);
-  for (const PlacedScan& placed : scans) {
-    const Eigen::Isometry3f T = placed.target_T_scan.cast<float>();
-    for (const Vector3f& p : placed.scan->points) points.push_back(T * p);
+/** Place of a point on a curve through all cells that seldom leaves a neighbourhood (Morton). */
+uint64_t mortonNumber(const Vector3f& p) {
+  constexpr float kCell_m = 0.5f;
+  const auto cell = [](float value) {
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(value / kCell_m)) + (1 << 20));
+  };
+  return spreadBits(cell(p.x())) | spreadBits(cell(p.y())) << 1 | spreadBits(cell(p.z())) << 2;
+}
+
+Cloud inNeighborlyOrder(const Cloud& cloud) {
+  std::vector<std::pair<uint64_t, uint32_t>> order;
+  order.reserve(cloud.size());
+  for (uint32_t i = 0; i < cloud.size(); ++i)
+    if (cloud.points[i].allFinite() && cloud.points[i].norm() < kFarthest_m)
+      order.emplace_back(mortonNumber(cloud.points[i]), i);
+  std::sort(order.begin(), order.end());
+  Cloud result;
+  result.viewpoints = cloud.viewpoints;
+  result.own_viewpoints = cloud.own_viewpoints;
+  for (const auto& [number, i] : order) {
+    result.points.push_back(cloud.points[i]);
+    result.viewpoint.push_back(cloud.viewpoint[i]);
   }
-  return points;
+  return result;
+}
+
+}  // namespace
+
+void ScanPreparationOptions::visit(OptionVisitor& v) {
+  v("normal_neighbors", normal_neighbors, "points", "nearest points that a normal is fitted to",
+    {3});
+  features.visit(v);
+}
+
+PreparedScan::PreparedScan(const Cloud& cloud, const ScanPreparationOptions& options, bool planar)
+    : feature_options_(options.features),
+      planar_(planar),
+      cloud_(inNeighborlyOrder(cloud)),
+      tree_(cloud_.points),
+      normals_(surfaceNormals(cloud_.points, tree_, options.normal_neighbors, planar)),
+      free_space_(cloud_) {
+  turnTowardsViewpoints(cloud_, normals_);
+  for (uint32_t i = 0; i < cloud_.size(); ++i)
+    if (cloud_.isOwn(i)) own_.push_back(i);
+}
+
+const Features& PreparedScan::features() const {
+  std::call_once(features_made_, [this] {
+    if (!planar_) features_ = computeFeatures(cloud_, feature_options_);
+  });
+  return features_;
+}
+
+size_t PreparedScan::bytes() const {
+  constexpr size_t kTreePerPoint = 24;  // leaves of ten points, an index each
+  const auto keypoints = planar_ ? 0 : static_cast<size_t>(feature_options_.max_keypoints);
+  return size() * (2 * sizeof(Vector3f) + 2 * sizeof(uint32_t) + kTreePerPoint) +
+         free_space_.bytes() +
+         std::min(size(), keypoints) *
+             (2 * sizeof(Vector3f) + Features::kDimensions * sizeof(float));
+}
+
+PreparedScanPtr prepareScan(std::vector<Vector3f> points, int normal_neighbors, bool planar) {
+  ScanPreparationOptions options;
+  options.normal_neighbors = normal_neighbors;
+  return std::make_shared<PreparedScan>(cloudSeenFromOrigin(std::move(points)), options, planar);
 }
 
 }  // namespace lamp

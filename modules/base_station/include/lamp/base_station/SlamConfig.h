@@ -96,6 +96,9 @@ class SlamConfig {
   /** The effective ini: complete, and running it again gives the same run. */
   std::string text() const;
 
+  /** The ini as it was read: for making further stages of its sections. */
+  const Ini& ini() const { return ini_; }
+
  private:
   void readRobots(Faults& faults);
   void checkArrivals(Faults& faults) const;

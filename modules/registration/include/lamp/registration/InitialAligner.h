@@ -12,6 +12,8 @@ namespace lamp {
 /** A relative pose for the refinement to start from. */
 struct Hypothesis {
   Pose3 target_T_source = Pose3::Identity();
+  size_t inliers = 0;       ///< matches that agree on it; 0 from aligners that match nothing
+  double inlier_ratio = 0;  ///< of all matches
 };
 
 /** Hypotheses, best first; none with the reason why. */

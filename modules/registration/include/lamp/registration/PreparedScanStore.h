@@ -14,7 +14,7 @@ namespace lamp {
 
 struct PreparationOptions {
   int accumulate_neighbors = 2;
-  int normal_neighbors = 10;
+  ScanPreparationOptions scan;
 
   void visit(OptionVisitor& v);
 };
@@ -41,9 +41,10 @@ class PreparedScanStore {
 
   explicit PreparedScanStore(const PreparationOptions& options) : options_(options) {}
 
-  Key source(const LoopClosureCandidate& candidate) const { return {candidate.to, 0, 0}; }
-  /** Never reaches the source, which would otherwise be matched with itself. */
-  Key target(const LoopClosureCandidate& candidate) const;
+  /** The key nodes of a pair with their neighbours. Of one robot's they never reach each other: no
+   * scan is matched with itself. */
+  Key source(const LoopClosureCandidate& candidate) const { return key(candidate.to, candidate); }
+  Key target(const LoopClosureCandidate& candidate) const { return key(candidate.from, candidate); }
 
   void add(const KeyframePacket& packet);
   /** The sorted, distinct keys among `wanted` that are not prepared yet, or were prepared before
@@ -56,6 +57,7 @@ class PreparedScanStore {
   PreparedScanPtr get(const Key& key) const { return entries_.at(key).prepared; }
 
  private:
+  Key key(KeyframeId id, const LoopClosureCandidate& candidate) const;
   struct Keyframe {
     Pose3 odom_T_base = Pose3::Identity();
     KeyedScanPtr scan;

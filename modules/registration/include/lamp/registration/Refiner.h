@@ -1,7 +1,11 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "lamp/core/Stage.h"
 #include "lamp/registration/InitialAligner.h"
+#include "lamp/registration/RegistrationInformation.h"
 #include "lamp/scans/Icp.h"
 
 namespace lamp {
@@ -9,10 +13,14 @@ namespace lamp {
 /** A refined relative pose and what is known of it. */
 struct RegistrationResult {
   Pose3 target_T_source = Pose3::Identity();
-  /** Tangent space at target_T_source; in the plane only x, y and yaw are meaningful. */
-  Matrix6d covariance = Matrix6d::Identity();
+  Pose3 start = Pose3::Identity();  ///< the hypothesis that it was refined from
+  /** Tangent space at target_T_source. None in directions that the scans do not observe; in the
+   * plane only x, y and yaw count. */
+  Matrix6d information = Matrix6d::Zero();
+  std::vector<std::string> unobserved;  ///< those directions, in words
   bool converged = false;
   int iterations = 0;
+  std::vector<Score> scores;  ///< further figures for the ledger
 };
 
 /** Second stage of the loop closure computation (paper II-C). */
@@ -24,26 +32,9 @@ class Refiner : public Stage {
                                     const Hypothesis& hypothesis) const = 0;
 };
 
-/** Covariance of a registration from the information matrix A = Σ HᵀH of point-to-plane ICP. */
-struct RegistrationCovarianceOptions {
-  double sigma_m = 0.05;
-  double correlated_points = 20;
-  double floor_sigma_m = 0.05;
-  double floor_sigma_deg = 0.5;
-  double max_sigma_m = 1.0;
-
-  void visit(OptionVisitor& v);
-};
-
-/** `σ² A⁻¹`, with neighbouring points counted as one measurement, plus a floor for what the model
- * leaves out. Directions that the scans do not observe get `max_sigma` (metres, and radians at one
- * metre), not less. \param information A in metres. */
-Matrix6d registrationCovariance(const Matrix6d& information,
-                                const RegistrationCovarianceOptions& options, bool planar);
-
 struct RefinerOptions {
   IcpOptions icp;
-  RegistrationCovarianceOptions covariance;
+  RegistrationInformationOptions information;
 
   void visit(OptionVisitor& v);
 };

@@ -18,6 +18,7 @@ struct IcpOptions {
   double correspondence_m = 0.5;
   double shrink_factor = 0.7;
   double kernel_m = 0.2;
+  double plane_thickness = 0.01;
   double translation_tolerance_m = 1e-3;
   double rotation_tolerance_deg = 0.05;
 
@@ -26,9 +27,15 @@ struct IcpOptions {
 
 struct IcpResult {
   Pose3 target_T_source = Pose3::Identity();
-  /** Sum of Hᵀ H over the matched points, H the derivative of the point-to-plane distance (metres)
-   * by the tangent vector at target_T_source; the A of the paper's observability analysis. */
+  /** The A of the paper's observability analysis: sum of Hᵀ H over the matched points with their
+   * weights, H the derivative of the point-to-plane distance (metres) by a motion about `pivot` in
+   * the target's axes. */
   Matrix6d information = Matrix6d::Zero();
+  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();  ///< centroid of the source, in the target
+  double weights = 0;                               ///< sum over the matched points
+  double patches = 0;     ///< pieces of surface, about a metre wide, that the matched points lie on
+  double radius_m = 0;    ///< r.m.s. distance of the source's points from the pivot
+  double residual_m = 0;  ///< weighted r.m.s. point-to-plane distance
   bool converged = false;  ///< false also if too few points matched
   int iterations = 0;
   size_t matches = 0;  ///< in the last iteration
@@ -36,20 +43,9 @@ struct IcpResult {
 
 /** Aligns source to target by Gauss-Newton from a start pose. Matches are searched within a
  * distance that shrinks from iteration to iteration; a Geman-McClure kernel takes the weight from
- * the bad ones. Planar scans are aligned in x, y and yaw only, the other coordinates keep the
- * start's. */
+ * the bad ones. The first iterations look at a part of the source's points. Planar scans are
+ * aligned in x, y and yaw only, the other coordinates keep the start's. */
 IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose3& start,
               IcpMetric metric, const IcpOptions& options);
-
-/** How well two scans agree at a relative pose. */
-struct Agreement {
-  double overlap = 0;     ///< share of source points with a partner of like normal
-  double residual_m = 0;  ///< r.m.s. point-to-plane distance of those
-  size_t matches = 0;
-};
-
-/** \param distance_m how near a partner must be; its normal must agree within 45°. */
-Agreement agreement(const PreparedScan& source, const PreparedScan& target,
-                    const Pose3& target_T_source, double distance_m);
 
 }  // namespace lamp

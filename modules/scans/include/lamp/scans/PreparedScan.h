@@ -2,41 +2,71 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <mutex>
 #include <vector>
 
-#include "lamp/core/Geometry.h"
-#include "lamp/core/KeyedScan.h"
 #include "lamp/core/KdTree.h"
+#include "lamp/scans/Cloud.h"
+#include "lamp/scans/Features.h"
+#include "lamp/scans/FreeSpace.h"
 
 namespace lamp {
 
-/** A cloud for registration, with all that is computed from it once: search tree and normals.
+struct ScanPreparationOptions {
+  int normal_neighbors = 10;
+  FeatureOptions features;
+
+  void visit(OptionVisitor& v);
+};
+
+/** A scan for registration, perhaps with its neighbours', with all that is computed from it once:
+ * search tree, normals, the free space before it, keypoints with descriptors. Safe to use from many
+ * threads.
  *
  * The covariance of a point in generalised ICP follows from its normal alone (Segal, Haehnel,
  * Thrun, RSS 2009): one along the surface, almost none across it. So normals are all that is
  * stored.
  */
-struct PreparedScan {
-  std::vector<Eigen::Vector3f> points;   ///< in the frame of the key node, metres
-  std::vector<Eigen::Vector3f> normals;  ///< unit length; zero where the surface is unknown
-  bool planar = false;                   ///< points of a level 2D laser: normals lie in the plane
-  std::unique_ptr<const KdTree> tree;
+class PreparedScan {
+ public:
+  /** Points that are not finite, or farther than 1000 km, are left out. The others are put in an
+   * order in which neighbours follow one another: searches for them then share the cache.
+   * \param planar points of a level 2D laser: normals are lines' normals in the x-y plane, and
+   * there are no features. */
+  PreparedScan(const Cloud& cloud, const ScanPreparationOptions& options, bool planar);
+  PreparedScan(const PreparedScan&) = delete;  // the tree refers to the points
+  PreparedScan& operator=(const PreparedScan&) = delete;
 
-  size_t size() const { return points.size(); }
+  size_t size() const { return cloud_.size(); }
+  /** Places of the scan's own points among all: as a source only these are used, as a target the
+   * neighbours' points, too. */
+  const std::vector<uint32_t>& own() const { return own_; }
+  /** In the frame of the key node, metres. */
+  const std::vector<Eigen::Vector3f>& points() const { return cloud_.points; }
+  /** Unit length, towards the lidar that saw the point; zero where the surface is unknown. */
+  const std::vector<Eigen::Vector3f>& normals() const { return normals_; }
+  bool planar() const { return planar_; }
+  const KdTree& tree() const { return tree_; }
+  const FreeSpace& freeSpace() const { return free_space_; }
+  /** Computed when first asked for: not every aligner needs them. */
+  const Features& features() const;
+  /** Memory, with features, whether they have been asked for or not. */
+  size_t bytes() const;
+
+ private:
+  const FeatureOptions feature_options_;
+  const bool planar_;
+  const Cloud cloud_;
+  const KdTree tree_;
+  std::vector<Eigen::Vector3f> normals_;
+  std::vector<uint32_t> own_;
+  const FreeSpace free_space_;
+  mutable std::once_flag features_made_;
+  mutable Features features_;
 };
 using PreparedScanPtr = std::shared_ptr<const PreparedScan>;
 
-/** \param normal_neighbors how many nearest points a normal is fitted to.
- *  \param planar normals are lines' normals in the x-y plane. */
+/** Points in a frame at whose origin the lidar stood. */
 PreparedScanPtr prepareScan(std::vector<Eigen::Vector3f> points, int normal_neighbors, bool planar);
-
-/** A keyed scan and where it lies in the frame that clouds are accumulated in. */
-struct PlacedScan {
-  KeyedScanPtr scan;
-  Pose3 target_T_scan = Pose3::Identity();
-};
-
-/** The points of several scans in one frame. */
-std::vector<Eigen::Vector3f> accumulate(const std::vector<PlacedScan>& scans);
 
 }  // namespace lamp

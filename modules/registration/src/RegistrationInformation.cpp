@@ -1,0 +1,110 @@
+#include "lamp/registration/RegistrationInformation.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace lamp {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+std::string describe(const char* motion, const Vector3d& axis) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%s (%.2f %.2f %.2f)", motion, axis.x(), axis.y(), axis.z());
+  return text;
+}
+
+/** Motions about the pivot, rotations as lengths at the radius, that meet no resistance: each weak
+ * axis with what the other kind of motion does to go along. */
+class WeakMotions {
+ public:
+  WeakMotions(const Matrix6d& scaled, const Observability& observability, double least)
+      : scaled_(scaled) {
+    for (int k = 0; k < 3; ++k)
+      if (observability.translation[k] < least)
+        add("translation along", observability.translations.col(k), 0);
+    for (int k = 0; k < 3; ++k)
+      if (observability.rotation[k] < least)
+        add("rotation about", observability.rotations.col(k), 3);
+  }
+
+  /** Orthonormal basis of all other motions, as columns. */
+  MatrixXd observed() const {
+    if (motions_.cols() == 0) return Matrix6d::Identity();
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(motions_);
+    const MatrixXd Q = qr.householderQ();
+    return Q.rightCols(6 - qr.rank());
+  }
+  const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  void add(const char* name, const Vector3d& axis, int first) {
+    const int other = 3 - first;
+    const Matrix3d block = scaled_.block<3, 3>(other, other);
+    Vector6d motion = Vector6d::Zero();
+    motion.segment<3>(first) = axis;
+    motion.segment<3>(other) =
+        -block.completeOrthogonalDecomposition().solve(scaled_.block<3, 3>(other, first) * axis);
+    motions_.conservativeResize(6, motions_.cols() + 1);
+    motions_.rightCols<1>() = motion.normalized();
+    names_.push_back(describe(name, axis));
+  }
+
+  const Matrix6d& scaled_;
+  MatrixXd motions_{6, 0};
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+void RegistrationInformationOptions::visit(OptionVisitor& v) {
+  v("sigma_m", sigma_m, "m", "noise of a patch of surface, added to the residual's", kPositive);
+  v("min_observability", min_observability, "",
+    "directions in which a smaller share of the points stands in the way carry no information",
+    kShare);
+  v("floor_sigma_m", floor_sigma_m, "m", "added to each coordinate: what the model leaves out",
+    kPositive);
+  v("floor_sigma_deg", floor_sigma_deg, "deg", "added to each angle: what the model leaves out",
+    kPositive);
+}
+
+RegistrationInformation registrationInformation(const IcpResult& icp,
+                                                const RegistrationInformationOptions& options,
+                                                bool planar) {
+  RegistrationInformation result;
+  if (!(icp.weights > 0) || !(icp.radius_m > 0)) return result;
+  result.observability = observability(icp.information, icp.weights, icp.radius_m);
+  // Rotations as lengths at the radius: only so can the six directions be compared.
+  Vector6d scale = Vector6d::Ones();
+  scale.tail<3>() /= icp.radius_m;
+  const Matrix6d scaled = scale.asDiagonal() * icp.information * scale.asDiagonal() / icp.weights;
+  const WeakMotions weak(scaled, result.observability, options.min_observability);
+  const MatrixXd Q = weak.observed();
+  for (const std::string& name : weak.names()) result.unobserved.push_back(name);
+  if (Q.cols() == 0) return result;
+
+  const double variance = options.sigma_m * options.sigma_m + icp.residual_m * icp.residual_m;
+  Vector6d floor;
+  floor.head<3>().setConstant(options.floor_sigma_m * options.floor_sigma_m);
+  floor.tail<3>().setConstant(std::pow(options.floor_sigma_deg * M_PI / 180.0 * icp.radius_m, 2));
+  const MatrixXd A = Q.transpose() * scaled * Q * icp.patches / variance;
+  const MatrixXd covariance =
+      A.completeOrthogonalDecomposition().pseudoInverse() + Q.transpose() * floor.asDiagonal() * Q;
+  const Matrix6d about_pivot = Q * covariance.inverse() * Q.transpose();
+  // Back from lengths to radians, and from the pivot to the tangent space at the pose.
+  Matrix6d to_scaled = Matrix6d::Identity();
+  to_scaled.bottomRightCorner<3, 3>() *= icp.radius_m;
+  const Matrix6d J = to_scaled * adjoint(Eigen::Translation3d(-icp.pivot) * icp.target_T_source);
+  result.information = J.transpose() * about_pivot * J;
+  result.information = 0.5 * (result.information + result.information.transpose()).eval();
+  (void)planar;
+  return result;
+}
+
+}  // namespace lamp

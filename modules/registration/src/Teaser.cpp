@@ -1,0 +1,17 @@
+#include "lamp/registration/Teaser.h"
+
+IMPLEMENTS_MRPT_OBJECT(Teaser, lamp::InitialAligner, lamp)
+
+namespace lamp {
+
+AlignmentResult Teaser::align(const PreparedScan& source, const PreparedScan& target,
+                              const Guess&) const {
+  if (source.planar() || target.planar()) return {{}, "planar scans have no descriptors"};
+  AlignmentResult result;
+  for (const GlobalPose& pose : alignByConsistency(source.features(), target.features(), options))
+    result.hypotheses.push_back({pose.target_T_source, pose.inliers, pose.inlier_ratio});
+  if (result.hypotheses.empty()) result.refusal = "too few consistent matches";
+  return result;
+}
+
+}  // namespace lamp

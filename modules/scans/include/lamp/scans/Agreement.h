@@ -1,0 +1,25 @@
+#pragma once
+
+#include "lamp/core/Geometry.h"
+#include "lamp/scans/PreparedScan.h"
+
+namespace lamp {
+
+/** How well two scans agree at a relative pose. */
+struct Agreement {
+  double overlap = 0;     ///< share of source points with a partner of like normal
+  double residual_m = 0;  ///< r.m.s. point-to-plane distance of those
+  size_t matches = 0;
+};
+
+/** \param distance_m how near a partner must be; its normal must agree within 45°. */
+Agreement agreement(const PreparedScan& source, const PreparedScan& target,
+                    const Pose3& target_T_source, double distance_m);
+
+/** Share of the scan's points that lie where the other's rays passed, among those of which its rays
+ * say anything; 0 if there are none.
+ * \param other_T_scan pose of the scan; \param margin_m see FreeSpace::at(). */
+double shareInFreeSpace(const PreparedScan& scan, const PreparedScan& other,
+                        const Pose3& other_T_scan, double margin_m);
+
+}  // namespace lamp

@@ -1,0 +1,83 @@
+#include "lamp/scans/Cloud.h"
+
+#include <unordered_map>
+
+namespace lamp {
+
+using Eigen::Vector3f;
+
+Cloud cloudSeenFromOrigin(std::vector<Vector3f> points) {
+  Cloud cloud;
+  cloud.viewpoint.assign(points.size(), 0);
+  cloud.points = std::move(points);
+  cloud.viewpoints = {Vector3f::Zero()};
+  return cloud;
+}
+
+Cloud accumulate(const std::vector<PlacedScan>& scans) {
+  size_t total = 0;
+  for (const PlacedScan& placed : scans) total += placed.scan->size();
+  Cloud cloud;
+  cloud.own_viewpoints = scans.empty() ? 0 : scans.front().scan->sensors.size();
+  cloud.points.reserve(total);
+  cloud.viewpoint.reserve(total);
+  for (const PlacedScan& placed : scans) {
+    const Eigen::Isometry3f T = placed.target_T_scan.cast<float>();
+    const auto first = static_cast<uint32_t>(cloud.viewpoints.size());
+    for (const SensorOrigin& sensor : placed.scan->sensors)
+      cloud.viewpoints.push_back(T * sensor.position.cast<float>());
+    for (size_t i = 0; i < placed.scan->size(); ++i) {
+      cloud.points.push_back(T * placed.scan->points[i]);
+      cloud.viewpoint.push_back(first + placed.scan->sensor[i]);
+    }
+  }
+  return cloud;
+}
+
+namespace {
+
+struct Cell {
+  int64_t x, y, z;
+  bool operator==(const Cell& o) const { return x == o.x && y == o.y && z == o.z; }
+};
+
+struct CellHash {
+  size_t operator()(const Cell& c) const {
+    return static_cast<size_t>(c.x) * 73856093 ^ static_cast<size_t>(c.y) * 19349669 ^
+           static_cast<size_t>(c.z) * 83492791;
+  }
+};
+
+}  // namespace
+
+Cloud voxelMeans(const Cloud& cloud, double leaf_m) {
+  std::unordered_map<Cell, size_t, CellHash> place;
+  place.reserve(cloud.size());
+  std::vector<Eigen::Vector3d> sums;
+  std::vector<int> counts;
+  Cloud means;
+  means.viewpoints = cloud.viewpoints;
+  means.own_viewpoints = cloud.own_viewpoints;
+  for (size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3d p = cloud.points[i].cast<double>();
+    const Eigen::Matrix<int64_t, 3, 1> cell = (p / leaf_m).array().floor().cast<int64_t>();
+    const auto [found, is_new] = place.emplace(Cell{cell.x(), cell.y(), cell.z()}, sums.size());
+    if (is_new) {
+      sums.push_back(Eigen::Vector3d::Zero());
+      counts.push_back(0);
+      means.viewpoint.push_back(cloud.viewpoint[i]);
+    }
+    sums[found->second] += p;
+    ++counts[found->second];
+  }
+  for (size_t k = 0; k < sums.size(); ++k)
+    means.points.push_back((sums[k] / counts[k]).cast<float>());
+  return means;
+}
+
+void turnTowardsViewpoints(const Cloud& cloud, std::vector<Vector3f>& normals) {
+  for (size_t i = 0; i < cloud.size(); ++i)
+    if (normals[i].dot(cloud.viewpointOf(i) - cloud.points[i]) < 0) normals[i] = -normals[i];
+}
+
+}  // namespace lamp

@@ -1,0 +1,103 @@
+#include "lamp/scans/GlobalAlignment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "VectorKernels.h"
+#include "lamp/scans/ConsistencyGraph.h"
+#include "lamp/scans/RobustPose.h"
+
+namespace lamp {
+
+namespace {
+
+using Eigen::Vector3f;
+
+/** Coordinates of matches, one array a coordinate, for loops over all of them. */
+struct MatchColumns {
+  explicit MatchColumns(const std::vector<Match>& matches, const Features& source,
+                        const Features& target)
+      : count(matches.size()), values(kColumns * count) {
+    for (size_t i = 0; i < count; ++i)
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const auto row = static_cast<Eigen::Index>(axis);
+        values[axis * count + i] = source.points[matches[i].source][row];
+        values[(3 + axis) * count + i] = target.points[matches[i].target][row];
+        values[(6 + axis) * count + i] = source.normals[matches[i].source][row];
+        values[(9 + axis) * count + i] = target.normals[matches[i].target][row];
+      }
+  }
+
+  static constexpr size_t kColumns = 12;
+  size_t count;
+  std::vector<float> values;
+};
+
+/** Which pairs of matches one rigid motion can explain: the distance of the points, the angle
+ * between the normals, and how far each point lies above the other one's tangent plane stay. */
+ConsistencyGraph consistencyGraph(const std::vector<Match>& matches, const Features& source,
+                                  const Features& target, const ConsistencyOptions& options) {
+  const MatchColumns columns(matches, source, target);
+  ConsistencyGraph graph(matches.size());
+  std::vector<unsigned char> consistent(matches.size());
+  for (size_t i = 0; i + 1 < matches.size(); ++i) {
+    consistentWith(
+        columns.values.data(), columns.count, i, static_cast<float>(2 * options.noise_bound_m),
+        static_cast<float>(options.max_normal_angle_deg * M_PI / 180.0), consistent.data());
+    for (size_t j = i + 1; j < matches.size(); ++j)
+      if (consistent[j] && matches[i].source != matches[j].source &&
+          matches[i].target != matches[j].target)
+        graph.connect(i, j);
+  }
+  return graph;
+}
+
+}  // namespace
+
+void ConsistencyOptions::visit(OptionVisitor& v) {
+  v("match_rank", match_rank, "", "keypoints match that are among each other's most similar ones",
+    {1, 10});
+  v("noise_bound_m", noise_bound_m, "m", "error that a right match may have; near the voxel size",
+    kPositive);
+  v("max_normal_angle_deg", max_normal_angle_deg, "deg",
+    "error that the angle between two normals may have", kPositive);
+  v("min_inliers", min_inliers, "matches", "fewer that agree are no hypothesis", {3});
+  v("max_hypotheses", max_hypotheses, "", "hypotheses that may go on to the refinement", {1});
+  v("upright", upright, "rotation about z only: where both scans are level");
+}
+
+std::vector<GlobalPose> alignByConsistency(const Features& source, const Features& target,
+                                           const ConsistencyOptions& options) {
+  const std::vector<Match> matches = mutualMatches(source, target, options.match_rank);
+  const ConsistencyGraph graph = consistencyGraph(matches, source, target, options);
+  std::vector<bool> left(matches.size(), true);
+  std::vector<GlobalPose> poses;
+  while (static_cast<int>(poses.size()) < options.max_hypotheses) {
+    const std::vector<uint32_t> clique = maximumClique(graph, left);
+    if (clique.size() < static_cast<size_t>(options.min_inliers)) break;
+    std::vector<PointPair> pairs;
+    for (const uint32_t m : clique) {
+      left[m] = false;
+      pairs.push_back({source.points[matches[m].source].cast<double>(),
+                       target.points[matches[m].target].cast<double>()});
+    }
+    const auto pose = robustPose(pairs, options.noise_bound_m, options.upright);
+    if (!pose) continue;
+    GlobalPose found{*pose, 0, 0};
+    const Eigen::Isometry3f T = pose->cast<float>();
+    for (size_t m = 0; m < matches.size(); ++m) {
+      const Vector3f error =
+          target.points[matches[m].target] - T * source.points[matches[m].source];
+      if (error.norm() > static_cast<float>(2 * options.noise_bound_m)) continue;
+      left[m] = false;
+      ++found.inliers;
+    }
+    found.inlier_ratio = static_cast<double>(found.inliers) / static_cast<double>(matches.size());
+    if (found.inliers >= static_cast<size_t>(options.min_inliers)) poses.push_back(found);
+  }
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const GlobalPose& a, const GlobalPose& b) { return a.inliers > b.inliers; });
+  return poses;
+}
+
+}  // namespace lamp

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+
+namespace lamp {
+
+/** Compiles a function for several instruction sets; the program takes the best one that the
+ * machine has. Not under sanitizers, which cannot run before the choice is made. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+#define LAMP_FOR_SEVERAL_INSTRUCTION_SETS \
+  __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
+#else
+#define LAMP_FOR_SEVERAL_INSTRUCTION_SETS
+#endif
+
+/** result[j] = Σ_k weights[k] · rows[k · columns + j]: one row of a product of matrices. */
+void weightedRowSum(const float* rows, size_t columns, const float* weights, size_t count,
+                    float* result);
+
+/** Whether match `i` and each match after it may belong to one rigid motion.
+ * \param columns arrays of `count` each: x, y, z of the source points, of the target points, of the
+ *   source normals, of the target normals.
+ * \param distance by how much lengths may differ, metres; \param angle by how much angles, rad.
+ * \param[out] consistent 1 or 0 for each match; those up to `i` are not written. */
+void consistentWith(const float* columns, size_t count, size_t i, float distance, float angle,
+                    unsigned char* consistent);
+
+}  // namespace lamp
