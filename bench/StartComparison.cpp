@@ -145,12 +145,12 @@ void run(const std::string& world, int count, unsigned seed, const std::vector<s
     pairs.insert(pairs.end(), some.begin(), some.end());
   }
 
-  PreparedScanStore scans(config.preparation);
+  PreparedScanStore scans(config.registration.preparation);
   for (const auto& [id, packet] : base.packets()) scans.add(packet);
   const auto prepared = [&](const PreparedScanStore::Key& key) {
-    if (!scans.missing({key}).empty()) scans.insert(key, scans.prepare(key));
-    scans.get(key)->features();
-    return scans.get(key);
+    const PreparedScanPtr scan = scans.get(key);
+    scan->features();  // here, where it is not timed
+    return scan;
   };
   const ShortestPathUncertainty uncertainty(base.graph());
   const std::unique_ptr<FILE, int (*)(FILE*)> file(
@@ -166,8 +166,9 @@ void run(const std::string& world, int count, unsigned seed, const std::vector<s
                                           config.ini(), faults);
     faults.throwIfAny();
     const LoopClosureComputation computation(
-        aligner, config.stages.refiner,
-        {config.stages.verifiers.begin(), config.stages.verifiers.end()});
+        {aligner}, config.stages.refiner,
+        {config.stages.verifiers.begin(), config.stages.verifiers.end()},
+        config.registration.ambiguity);
     Tally tally;
     for (const TruePair& pair : pairs) {
       const auto a = prepared(scans.target(pair.candidate));

@@ -41,10 +41,12 @@ BaseStation::BaseStation(const SlamConfig& config, mrpt::system::CTimeLogger& ti
       options_(config.base_station),
       inter_robot_loops_(config.pipeline.inter_robot_loops),
       stages_(config.stages),
-      computation_(config.stages.initial_aligner, config.stages.refiner,
-                   {config.stages.verifiers.begin(), config.stages.verifiers.end()}),
+      computation_({config.stages.initial_aligners.begin(), config.stages.initial_aligners.end()},
+                   config.stages.refiner,
+                   {config.stages.verifiers.begin(), config.stages.verifiers.end()},
+                   config.registration.ambiguity),
       timer_(timer),
-      scans_(config.preparation) {}
+      scans_(config.registration.preparation) {}
 
 void BaseStation::receive(const KeyframePacket& packet) {
   registerNode(packet);
@@ -137,13 +139,13 @@ void BaseStation::computeRound(size_t budget) {
   ++round_;
 
   const std::vector<Guess> guesses = this->guesses(candidates, uncertainty);
-  prepareScans(candidates);
   std::vector<LoopClosureAttempt> attempts(candidates.size());
   {
     const CTimeLoggerEntry timing(timer_, "registration");
     tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
-      attempts[i] = computation_.compute(*scans_.get(scans_.source(candidates[i])),
-                                         *scans_.get(scans_.target(candidates[i])), guesses[i]);
+      const PreparedScanPtr source = scans_.get(scans_.source(candidates[i]));
+      const PreparedScanPtr target = scans_.get(scans_.target(candidates[i]));
+      attempts[i] = computation_.compute(*source, *target, guesses[i]);
     });
   }
   for (size_t i = 0; i < candidates.size(); ++i)
@@ -178,20 +180,6 @@ std::vector<Guess> BaseStation::guesses(const std::vector<LoopClosureCandidate>&
     }
   }
   return result;
-}
-
-void BaseStation::prepareScans(const std::vector<LoopClosureCandidate>& candidates) {
-  const CTimeLoggerEntry timing(timer_, "registration.prepare");
-  std::vector<PreparedScanStore::Key> wanted;
-  for (const LoopClosureCandidate& candidate : candidates) {
-    wanted.push_back(scans_.source(candidate));
-    wanted.push_back(scans_.target(candidate));
-  }
-  const auto missing = scans_.missing(std::move(wanted));
-  std::vector<PreparedScanPtr> prepared(missing.size());
-  tbb::parallel_for(size_t{0}, missing.size(),
-                    [&](size_t i) { prepared[i] = scans_.prepare(missing[i]); });
-  for (size_t i = 0; i < missing.size(); ++i) scans_.insert(missing[i], prepared[i]);
 }
 
 void BaseStation::record(const LoopClosureCandidate& candidate, const Guess& guess,

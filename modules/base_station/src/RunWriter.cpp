@@ -105,7 +105,8 @@ void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CT
   writeTextFile(folder.summary(), summarize(result).dump(2) + "\n");
 }
 
-void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer, int threads) {
+void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer,
+                  const PreparationReport& preparation, int threads) {
   std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stats;
   timer.getStats(stats);
   nlohmann::ordered_json json;
@@ -115,6 +116,9 @@ void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& time
   json["peak_memory_mb"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
   for (const auto& [name, stat] : stats)
     json["stages"][name] = {{"seconds", stat.total_t}, {"calls", stat.n_calls}};
+  // Within registration, on all threads: the calls are key nodes' scans.
+  json["stages"]["registration.prepare"] = {{"seconds", preparation.seconds},
+                                            {"calls", preparation.scans}};
   writeTextFile(folder.timings(), json.dump(2) + "\n");
 }
 

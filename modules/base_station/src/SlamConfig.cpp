@@ -68,6 +68,12 @@ class Maker {
     return nullptr;
   }
 
+  /** At least one. */
+  std::vector<std::shared_ptr<Base>> some(const std::vector<std::string>& names) const {
+    if (names.empty()) faults_.add(where_, "needs a name");
+    return all(names);
+  }
+
   std::vector<std::shared_ptr<Base>> all(const std::vector<std::string>& names) const {
     std::vector<std::shared_ptr<Base>> stages;
     for (const std::string& name : names) stages.push_back(one(name));
@@ -111,7 +117,8 @@ void PipelineOptions::visit(OptionVisitor& v) {
   v("odometry", odometry, "odometry source");
   v("candidates", candidates, "candidate generators; none gives odometry only");
   v("priority", priority, "prioritizer of candidates");
-  v("initial_aligner", initial_aligner, "first stage of the loop closure computation");
+  v("initial_aligner", initial_aligner,
+    "first stage of the loop closure computation; each is tried if those before it found no loop");
   v("refiner", refiner, "second stage of the loop closure computation");
   v("verifiers", verifiers, "all of these must accept a loop closure");
   v("optimizer", optimizer, "back end");
@@ -170,7 +177,7 @@ SlamConfig::SlamConfig(Ini ini, Faults faults) : ini_(std::move(ini)) {
   readOptions(ini_.find("input"), input, faults);
   readOptions(ini_.find("pipeline"), pipeline, faults);
   readOptions(ini_.find("frontend"), frontend, faults);
-  readOptions(ini_.find("registration"), preparation, faults);
+  readOptions(ini_.find("registration"), registration, faults);
   readOptions(ini_.find("base_station"), base_station, faults);
   readRobots(faults);
   checkArrivals(faults);
@@ -218,8 +225,9 @@ void SlamConfig::makeStages(Faults& faults) {
                           .all(pipeline.candidates);
   stages.priority =
       Maker<Prioritizer>(ini_, "priority", "prioritizer", faults).one(pipeline.priority);
-  stages.initial_aligner = Maker<InitialAligner>(ini_, "initial_aligner", "initial aligner", faults)
-                               .one(pipeline.initial_aligner);
+  stages.initial_aligners =
+      Maker<InitialAligner>(ini_, "initial_aligner", "initial aligner", faults)
+          .some(pipeline.initial_aligner);
   stages.refiner = Maker<Refiner>(ini_, "refiner", "refiner", faults).one(pipeline.refiner);
   stages.verifiers = Maker<Verifier>(ini_, "verifiers", "verifier", faults).all(pipeline.verifiers);
   stages.optimizer =
@@ -243,10 +251,10 @@ void SlamConfig::checkSections(Faults& faults) const {
     }
     const StageName stage = StageName::parse(name.substr(kStagePrefix.size()));
     std::vector<std::string> used = pipeline.candidates;
-    for (const auto* list : {&pipeline.verifiers, &pipeline.exporters})
+    for (const auto* list : {&pipeline.initial_aligner, &pipeline.verifiers, &pipeline.exporters})
       used.insert(used.end(), list->begin(), list->end());
-    for (const auto* one : {&pipeline.odometry, &pipeline.priority, &pipeline.initial_aligner,
-                            &pipeline.refiner, &pipeline.optimizer})
+    for (const auto* one :
+         {&pipeline.odometry, &pipeline.priority, &pipeline.refiner, &pipeline.optimizer})
       used.push_back(*one);
     if (std::find(used.begin(), used.end(), stage.text()) == used.end())
       makeStage(stage, CLASS_ID(Stage), "stage", section.where, ini_, faults);
@@ -267,7 +275,7 @@ std::string SlamConfig::text() const {
                      "\n" + writeOptions("input", copy.input) + "\n" +
                      writeOptions("pipeline", copy.pipeline) + "\n" +
                      writeOptions("frontend", copy.frontend) + "\n" +
-                     writeOptions("registration", copy.preparation) + "\n" +
+                     writeOptions("registration", copy.registration) + "\n" +
                      writeOptions("base_station", copy.base_station);
   for (RobotOptions& robot : copy.robots)
     text += "\n" + writeOptions(kRobotPrefix + robot.name, robot);
@@ -280,7 +288,7 @@ std::string SlamConfig::text() const {
   add(pipeline.odometry, *makeOdometry());
   for (const auto& stage : stages.candidates) add(stage->getLoggerName(), *stage);
   add(pipeline.priority, *stages.priority);
-  add(pipeline.initial_aligner, *stages.initial_aligner);
+  for (const auto& stage : stages.initial_aligners) add(stage->getLoggerName(), *stage);
   add(pipeline.refiner, *stages.refiner);
   for (const auto& stage : stages.verifiers) add(stage->getLoggerName(), *stage);
   add(pipeline.optimizer, *stages.optimizer);
@@ -316,7 +324,7 @@ std::string describeParameters() {
   std::string text = kParametersIntroduction;
   text += table("plugins", PluginOptions{}) + table("run", RunOptions{}) +
           table("input", InputOptions{}) + table("pipeline", PipelineOptions{}) +
-          table("frontend", FrontEndOptions{}) + table("registration", PreparationOptions{}) +
+          table("frontend", FrontEndOptions{}) + table("registration", RegistrationOptions{}) +
           table("base_station", BaseStationOptions{}) + table("robot.NAME", RobotOptions{});
   for (const StageKind& kind : stageKinds()) {
     text += "## [pipeline] " + std::string(kind.key) + "\n\n";

@@ -145,7 +145,7 @@ std::string SlamRun::run() {
     writeRun(folder, result, timer,
              [&](double share, const std::string& step) { progress.show(share, step); });
   }
-  writeTimings(folder, timer, job_.threads);
+  writeTimings(folder, timer, base_station.preparation(), job_.threads);
   return describeRun(folder, result);
 }
 

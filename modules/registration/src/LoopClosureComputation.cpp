@@ -1,67 +1,99 @@
 #include "lamp/registration/LoopClosureComputation.h"
 
-#include "lamp/registration/Teaser.h"
+#include <algorithm>
+#include <cmath>
+
+#include "lamp/registration/ObservedPart.h"
 
 namespace lamp {
 
+void AmbiguityOptions::visit(OptionVisitor& v) {
+  v("ambiguity_distance_m", ambiguity_distance_m, "m",
+    "two accepted hypotheses that lie farther apart are a refusal", kPositive);
+  v("ambiguity_angle_deg", ambiguity_angle_deg, "deg",
+    "two accepted hypotheses that lie farther apart are a refusal", kPositive);
+}
+
 LoopClosureComputation::LoopClosureComputation(
-    std::shared_ptr<const InitialAligner> aligner, std::shared_ptr<const Refiner> refiner,
-    std::vector<std::shared_ptr<const Verifier>> verifiers)
-    : aligner_(std::move(aligner)),
+    std::vector<std::shared_ptr<const InitialAligner>> aligners,
+    std::shared_ptr<const Refiner> refiner, std::vector<std::shared_ptr<const Verifier>> verifiers,
+    const AmbiguityOptions& ambiguity)
+    : aligners_(std::move(aligners)),
       refiner_(std::move(refiner)),
-      verifiers_(std::move(verifiers)) {}
+      verifiers_(std::move(verifiers)),
+      ambiguity_(ambiguity) {}
 
 LoopClosureAttempt LoopClosureComputation::compute(const PreparedScan& source,
                                                    const PreparedScan& target,
                                                    const Guess& guess) const {
-  const AlignmentResult alignment = aligner_->align(source, target, guess);
-  LoopClosureAttempt attempt;
-  attempt.stage = aligner_->getLoggerName();
-  attempt.reason = alignment.refusal;
-  for (const Hypothesis& hypothesis : alignment.hypotheses) {
-    attempt = refineAndVerify(source, target, guess, hypothesis);
-    if (attempt.accepted) break;
+  Followed best;
+  for (const auto& aligner : aligners_) {
+    Followed followed = alignWith(*aligner, source, target, guess);
+    if (&aligner == &aligners_.front() || followed.steps > best.steps) best = std::move(followed);
+    if (best.attempt.accepted) break;
   }
-  return attempt;
+  return best.attempt;
 }
 
-LoopClosureAttempt LoopClosureComputation::refineAndVerify(const PreparedScan& source,
-                                                           const PreparedScan& target,
-                                                           const Guess& guess,
-                                                           const Hypothesis& hypothesis) const {
-  LoopClosureAttempt attempt;
-  attempt.result = refiner_->refine(source, target, hypothesis);
-  if (!attempt.result.converged) {
-    attempt.stage = refiner_->getLoggerName();
-    attempt.reason = "did not converge";
-    return attempt;
+LoopClosureComputation::Followed LoopClosureComputation::alignWith(const InitialAligner& aligner,
+                                                                   const PreparedScan& source,
+                                                                   const PreparedScan& target,
+                                                                   const Guess& guess) const {
+  const AlignmentResult alignment = aligner.align(source, target, guess);
+  Followed best;
+  best.attempt.stage = aligner.getLoggerName();
+  best.attempt.reason = alignment.refusal;
+  for (const Hypothesis& hypothesis : alignment.hypotheses) {
+    Followed followed = refineAndVerify(source, target, guess, hypothesis);
+    if (best.attempt.accepted && followed.attempt.accepted &&
+        differ(best.attempt.result, followed.attempt.result)) {
+      best.attempt.accepted = false;
+      best.attempt.stage = aligner.getLoggerName();
+      best.attempt.reason = "ambiguous";
+      return best;
+    }
+    if (followed.steps > best.steps) best = std::move(followed);
   }
+  return best;
+}
+
+LoopClosureComputation::Followed LoopClosureComputation::refineAndVerify(
+    const PreparedScan& source, const PreparedScan& target, const Guess& guess,
+    const Hypothesis& hypothesis) const {
+  Followed followed;
+  LoopClosureAttempt& attempt = followed.attempt;
+  if (hypothesis.inliers > 0)
+    attempt.scores = {{"inliers", static_cast<double>(hypothesis.inliers), std::nullopt},
+                      {"inlier_ratio", hypothesis.inlier_ratio, std::nullopt}};
+  attempt.result = refiner_->refine(source, target, hypothesis);
+  attempt.scores.insert(attempt.scores.end(), attempt.result.scores.begin(),
+                        attempt.result.scores.end());
+  followed.steps = 1;
+  attempt.stage = refiner_->getLoggerName();
+  attempt.reason = attempt.result.converged ? "" : "did not converge";
+  if (!attempt.result.converged) return followed;
   for (const auto& verifier : verifiers_) {
+    ++followed.steps;
     const Verification verification = verifier->verify(attempt.result, source, target, guess);
     attempt.scores.insert(attempt.scores.end(), verification.scores.begin(),
                           verification.scores.end());
     if (verification.accepted()) continue;
     attempt.stage = verifier->getLoggerName();
     attempt.reason = verification.refusal;
-    return attempt;
+    return followed;
   }
+  ++followed.steps;
   attempt.accepted = true;
   attempt.stage = "verified";
-  return attempt;
+  return followed;
 }
 
-void registerAllClasses_lamp_registration() {
-  mrpt::rtti::registerClass(CLASS_ID(InitialAligner));
-  mrpt::rtti::registerClass(CLASS_ID(Identity));
-  mrpt::rtti::registerClass(CLASS_ID(Odometry));
-  mrpt::rtti::registerClass(CLASS_ID(OdometryRotation));
-  mrpt::rtti::registerClass(CLASS_ID(Teaser));
-  mrpt::rtti::registerClass(CLASS_ID(Refiner));
-  mrpt::rtti::registerClass(CLASS_ID(Gicp));
-  mrpt::rtti::registerClass(CLASS_ID(PointToPlane));
-  mrpt::rtti::registerClass(CLASS_ID(Verifier));
-  mrpt::rtti::registerClass(CLASS_ID(OverlapResidual));
-  mrpt::rtti::registerClass(CLASS_ID(GuessDeviation));
+bool LoopClosureComputation::differ(const RegistrationResult& a,
+                                    const RegistrationResult& b) const {
+  const Vector6d apart =
+      observedPart(logSE3(a.target_T_source.inverse() * b.target_T_source), a.information);
+  return apart.head<3>().norm() > ambiguity_.ambiguity_distance_m ||
+         apart.tail<3>().norm() * 180.0 / M_PI > ambiguity_.ambiguity_angle_deg;
 }
 
 }  // namespace lamp

@@ -6,7 +6,9 @@ namespace lamp {
 
 void PreparationOptions::visit(OptionVisitor& v) {
   v("accumulate_neighbors", accumulate_neighbors, "key nodes",
-    "neighbours on each side whose scans join the target's", kNotNegative);
+    "neighbours on each side whose scans join a key node's", kNotNegative);
+  v("memory_limit_mb", memory_limit_mb, "MB",
+    "memory of prepared scans; what was not used for longest is prepared again when needed", {1});
   scan.visit(v);
 }
 
@@ -32,17 +34,6 @@ std::vector<KeyframeId> PreparedScanStore::members(const Key& key) const {
   return ids;
 }
 
-std::vector<PreparedScanStore::Key> PreparedScanStore::missing(std::vector<Key> wanted) const {
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  const auto done = [&](const Key& key) {
-    const auto found = entries_.find(key);
-    return found != entries_.end() && found->second.scans == members(key).size();
-  };
-  wanted.erase(std::remove_if(wanted.begin(), wanted.end(), done), wanted.end());
-  return wanted;
-}
-
 PreparedScanPtr PreparedScanStore::prepare(const Key& key) const {
   const Keyframe& center = keyframes_.at(key.id);
   std::vector<PlacedScan> scans{{center.scan, Pose3::Identity()}};
@@ -54,8 +45,69 @@ PreparedScanPtr PreparedScanStore::prepare(const Key& key) const {
   return std::make_shared<PreparedScan>(accumulate(scans), options_.scan, center.planar);
 }
 
-void PreparedScanStore::insert(const Key& key, PreparedScanPtr prepared) {
-  entries_[key] = {std::move(prepared), members(key).size()};
+PreparedScanPtr PreparedScanStore::get(const Key& key) {
+  const EntryPtr entry = find(key);
+  std::call_once(entry->once, [&] {
+    entry->prepared = prepare(key);
+    account(key, entry);
+  });
+  return entry->prepared;
+}
+
+/** The entry of the key, now the one used last; an empty one if there is none up to date. */
+PreparedScanStore::EntryPtr PreparedScanStore::find(const Key& key) {
+  const size_t scans = members(key).size();
+  const std::lock_guard lock(mutex_);
+  auto found = entries_.find(key);
+  if (found != entries_.end() && found->second->scans != scans) {
+    forget(found);
+    found = entries_.end();
+  }
+  if (found == entries_.end()) {
+    found = entries_.emplace(key, std::make_shared<Entry>()).first;
+    found->second->scans = scans;
+    uses_.push_front(key);
+  } else {
+    uses_.splice(uses_.begin(), uses_, found->second->use);
+  }
+  found->second->use = uses_.begin();
+  return found->second;
+}
+
+/** Counts a new scan's memory, and makes room for it. */
+void PreparedScanStore::account(const Key& key, const EntryPtr& entry) {
+  const std::lock_guard lock(mutex_);
+  const auto place = entries_.find(key);
+  if (place == entries_.end() || place->second != entry) return;
+  entry->counted = true;
+  bytes_ += entry->prepared->bytes();
+  const size_t limit = static_cast<size_t>(options_.memory_limit_mb) << 20;
+  while (bytes_ > limit && uses_.size() > 1) {
+    const auto oldest = entries_.find(uses_.back());
+    if (oldest->second == entry) break;
+    forget(oldest);
+  }
+}
+
+void PreparedScanStore::forget(std::map<Key, EntryPtr>::iterator place) {
+  const EntryPtr entry = place->second;
+  uses_.erase(entry->use);
+  entries_.erase(place);
+  if (!entry->counted) return;
+  bytes_ -= entry->prepared->bytes();
+  ++forgotten_.scans;
+  forgotten_.seconds += entry->prepared->secondsOfPreparation();
+}
+
+PreparationReport PreparedScanStore::report() const {
+  const std::lock_guard lock(mutex_);
+  PreparationReport report = forgotten_;
+  for (const auto& [key, entry] : entries_) {
+    if (!entry->counted) continue;
+    ++report.scans;
+    report.seconds += entry->prepared->secondsOfPreparation();
+  }
+  return report;
 }
 
 }  // namespace lamp

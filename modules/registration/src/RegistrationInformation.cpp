@@ -24,8 +24,8 @@ std::string describe(const char* motion, const Vector3d& axis) {
  * axis with what the other kind of motion does to go along. */
 class WeakMotions {
  public:
-  WeakMotions(const Matrix6d& scaled, const Observability& observability, double least)
-      : scaled_(scaled) {
+  WeakMotions(const Matrix6d& scaled, const Observability& observability, double least, bool planar)
+      : scaled_(scaled), planar_(planar) {
     for (int k = 0; k < 3; ++k)
       if (observability.translation[k] < least)
         add("translation along", observability.translations.col(k), 0);
@@ -53,10 +53,13 @@ class WeakMotions {
         -block.completeOrthogonalDecomposition().solve(scaled_.block<3, 3>(other, first) * axis);
     motions_.conservativeResize(6, motions_.cols() + 1);
     motions_.rightCols<1>() = motion.normalized();
-    names_.push_back(describe(name, axis));
+    // Nobody moves out of the plane, so nobody misses what is not known of that.
+    const bool in_plane = (std::abs(axis.z()) < 0.5) == (first == 0);
+    if (!planar_ || in_plane) names_.push_back(describe(name, axis));
   }
 
   const Matrix6d& scaled_;
+  const bool planar_;
   MatrixXd motions_{6, 0};
   std::vector<std::string> names_;
 };
@@ -84,7 +87,7 @@ RegistrationInformation registrationInformation(const IcpResult& icp,
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>() /= icp.radius_m;
   const Matrix6d scaled = scale.asDiagonal() * icp.information * scale.asDiagonal() / icp.weights;
-  const WeakMotions weak(scaled, result.observability, options.min_observability);
+  const WeakMotions weak(scaled, result.observability, options.min_observability, planar);
   const MatrixXd Q = weak.observed();
   for (const std::string& name : weak.names()) result.unobserved.push_back(name);
   if (Q.cols() == 0) return result;
@@ -103,7 +106,6 @@ RegistrationInformation registrationInformation(const IcpResult& icp,
   const Matrix6d J = to_scaled * adjoint(Eigen::Translation3d(-icp.pivot) * icp.target_T_source);
   result.information = J.transpose() * about_pivot * J;
   result.information = 0.5 * (result.information + result.information.transpose()).eval();
-  (void)planar;
   return result;
 }
 

@@ -5,10 +5,13 @@ IMPLEMENTS_MRPT_OBJECT(Teaser, lamp::InitialAligner, lamp)
 namespace lamp {
 
 AlignmentResult Teaser::align(const PreparedScan& source, const PreparedScan& target,
-                              const Guess&) const {
+                              const Guess& guess) const {
   if (source.planar() || target.planar()) return {{}, "planar scans have no descriptors"};
+  std::optional<UncertainPose> known;
+  if (guess.covariance) known = UncertainPose{guess.target_T_source, *guess.covariance};
   AlignmentResult result;
-  for (const GlobalPose& pose : alignByConsistency(source.features(), target.features(), options))
+  for (const GlobalPose& pose :
+       alignByConsistency(source.features(), target.features(), known, options))
     result.hypotheses.push_back({pose.target_T_source, pose.inliers, pose.inlier_ratio});
   if (result.hypotheses.empty()) result.refusal = "too few consistent matches";
   return result;

@@ -19,7 +19,7 @@ Agreement agreement(const PreparedScan& source, const PreparedScan& target,
     if (j == KdTree::kNone) continue;
     const Vector3f normal = T.linear() * source.normals()[i];
     const Vector3f& target_normal = target.normals()[j];
-    if (std::abs(normal.dot(target_normal)) < kCosineOf45Degrees) continue;
+    if (normal.dot(target_normal) < kCosineOf45Degrees) continue;
     const double along_normal = target_normal.dot(p - target.points()[j]);
     squares += along_normal * along_normal;
     ++result.matches;

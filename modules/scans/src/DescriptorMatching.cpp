@@ -8,11 +8,13 @@ namespace lamp {
 
 namespace {
 
+constexpr float kLeastSimilar = -2.0f;
+
 /** The best few of a row of similarities, best first. */
 class BestFew {
  public:
   explicit BestFew(int count)
-      : similarity_(static_cast<size_t>(count), -2.0f), place_(similarity_.size(), kNone) {}
+      : similarity_(static_cast<size_t>(count), kLeastSimilar), place_(similarity_.size(), kNone) {}
 
   float worst() const { return similarity_.back(); }
   void take(float similarity, uint32_t place) {
@@ -52,13 +54,23 @@ void forSimilarities(const Features& source, const Features& target, const Take&
   }
 }
 
+/** Makes the keypoints outside of a sphere less similar than any can be. */
+void excludeOutside(const Eigen::Vector3f& center, float radius, const Features& target,
+                    std::vector<float>& similarities) {
+  for (size_t j = 0; j < target.size(); ++j)
+    if ((target.points[j] - center).squaredNorm() > radius * radius)
+      similarities[j] = kLeastSimilar;
+}
+
 }  // namespace
 
-std::vector<Match> mutualMatches(const Features& source, const Features& target, int rank) {
+std::vector<Match> mutualMatches(const Features& source, const Features& target, int rank,
+                                 const std::optional<Whereabouts>& whereabouts) {
   std::vector<BestFew> of_source(source.size(), BestFew(rank)),
       of_target(target.size(), BestFew(rank));
-  std::vector<float> worst(target.size(), -2.0f);
-  forSimilarities(source, target, [&](size_t i, const std::vector<float>& row) {
+  std::vector<float> worst(target.size(), kLeastSimilar);
+  forSimilarities(source, target, [&](size_t i, std::vector<float>& row) {
+    if (whereabouts) excludeOutside(whereabouts->centers[i], whereabouts->radii[i], target, row);
     for (size_t j = 0; j < row.size(); ++j) {
       of_source[i].take(row[j], static_cast<uint32_t>(j));
       if (row[j] > worst[j]) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "VectorKernels.h"
+#include "lamp/core/ChiSquare.h"
 #include "lamp/scans/ConsistencyGraph.h"
 #include "lamp/scans/RobustPose.h"
 
@@ -52,6 +53,23 @@ ConsistencyGraph consistencyGraph(const std::vector<Match>& matches, const Featu
   return graph;
 }
 
+/** Where the guess lets the partner of each keypoint lie. */
+Whereabouts whereabouts(const Features& source, const UncertainPose& guess,
+                        const ConsistencyOptions& options) {
+  const double quantile = chiSquareQuantile(options.guess_probability, 3);
+  Whereabouts result;
+  for (const Vector3f& point : source.points) {
+    // T Exp(d) p moves by R (v - p x w), d = (v, w).
+    Eigen::Matrix<double, 3, 6> J;
+    J << Eigen::Matrix3d::Identity(), -skew(point.cast<double>());
+    const double variance = (J * guess.covariance * J.transpose()).trace();
+    result.centers.push_back((guess.target_T_source * point.cast<double>()).cast<float>());
+    result.radii.push_back(
+        static_cast<float>(std::sqrt(quantile * variance) + 2 * options.noise_bound_m));
+  }
+  return result;
+}
+
 }  // namespace
 
 void ConsistencyOptions::visit(OptionVisitor& v) {
@@ -63,12 +81,18 @@ void ConsistencyOptions::visit(OptionVisitor& v) {
     "error that the angle between two normals may have", kPositive);
   v("min_inliers", min_inliers, "matches", "fewer that agree are no hypothesis", {3});
   v("max_hypotheses", max_hypotheses, "", "hypotheses that may go on to the refinement", {1});
+  v("guess_probability", guess_probability, "",
+    "share of right matches that the guess, where its error is known, lets pass",
+    {0.5, 1.0 - 1e-12});
   v("upright", upright, "rotation about z only: where both scans are level");
 }
 
 std::vector<GlobalPose> alignByConsistency(const Features& source, const Features& target,
+                                           const std::optional<UncertainPose>& guess,
                                            const ConsistencyOptions& options) {
-  const std::vector<Match> matches = mutualMatches(source, target, options.match_rank);
+  std::optional<Whereabouts> within;
+  if (guess) within = whereabouts(source, *guess, options);
+  const std::vector<Match> matches = mutualMatches(source, target, options.match_rank, within);
   const ConsistencyGraph graph = consistencyGraph(matches, source, target, options);
   std::vector<bool> left(matches.size(), true);
   std::vector<GlobalPose> poses;

@@ -57,7 +57,10 @@ class Linearization {
 
   /** \param lever from the pivot to the source point; \param r from the target to the source point;
    *  \param n target's normal; \param m source's normal; all in the target's axes. */
-  void add(const Vector3d& lever, const Vector3d& r, const Vector3d& n, Vector3d m) {
+  void add(const Vector3d& lever, const Vector3d& r, const Vector3d& n, const Vector3d& m) {
+    const double c = n.dot(m);
+    if (c < 0) return;  // two sides of a wall, or a floor and a ceiling
+
     const Vector6d jn = derivative(n, lever);
     const double distance = n.dot(r);
     double weight;
@@ -65,11 +68,6 @@ class Linearization {
       // 2 e C⁻¹ of C = 2 - (1 - e)(n nᵀ + m mᵀ), in closed form: C's eigenvectors are n + m and
       // n - m. Scaled so that a distance across parallel surfaces counts once.
       const double k = 1.0 - thickness_;
-      double c = n.dot(m);
-      if (c < 0) {
-        m = -m;
-        c = -c;
-      }
       const Vector3d a = n + m, b = n - m;
       const double wa = thickness_ * k / (2.0 * (2.0 - k * (1.0 + c)));
       const double wb = thickness_ * k / (2.0 * (2.0 - k * (1.0 - c)));

@@ -12,6 +12,12 @@ using Eigen::Vector3f;
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
 constexpr float kFarthest_m = 1e6f;
 
 /** Spreads the lowest 21 bits so that two more numbers fit between them. */
@@ -60,7 +66,8 @@ void ScanPreparationOptions::visit(OptionVisitor& v) {
 }
 
 PreparedScan::PreparedScan(const Cloud& cloud, const ScanPreparationOptions& options, bool planar)
-    : feature_options_(options.features),
+    : begun_(Clock::now()),
+      feature_options_(options.features),
       planar_(planar),
       cloud_(inNeighborlyOrder(cloud)),
       tree_(cloud_.points),
@@ -69,11 +76,14 @@ PreparedScan::PreparedScan(const Cloud& cloud, const ScanPreparationOptions& opt
   turnTowardsViewpoints(cloud_, normals_);
   for (uint32_t i = 0; i < cloud_.size(); ++i)
     if (cloud_.isOwn(i)) own_.push_back(i);
+  seconds_ = secondsSince(begun_);
 }
 
 const Features& PreparedScan::features() const {
   std::call_once(features_made_, [this] {
+    const Clock::time_point begin = Clock::now();
     if (!planar_) features_ = computeFeatures(cloud_, feature_options_);
+    seconds_ = seconds_ + secondsSince(begin);
   });
   return features_;
 }

@@ -40,6 +40,7 @@ class BaseStation : public mrpt::system::COutputLogger {
   size_t candidates() const { return candidate_count_; }
   size_t optimizations() const { return optimization_count_; }
   const OptimizationReport& lastReport() const { return report_; }
+  PreparationReport preparation() const { return scans_.report(); }
   /** Key nodes with their scans, in KeyframeId order. */
   const std::map<KeyframeId, KeyframePacket>& packets() const { return packets_; }
 
@@ -58,7 +59,6 @@ class BaseStation : public mrpt::system::COutputLogger {
   std::vector<Guess> guesses(const std::vector<LoopClosureCandidate>& candidates,
                              const UncertaintyQuery& uncertainty) const;
   Guess guess(const LoopClosureCandidate& candidate) const;
-  void prepareScans(const std::vector<LoopClosureCandidate>& candidates);
   void record(const LoopClosureCandidate& candidate, const Guess& guess, LoopClosureAttempt attempt,
               size_t rank);
   bool optimizationDue() const;

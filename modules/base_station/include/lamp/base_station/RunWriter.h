@@ -36,7 +36,8 @@ void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CT
               const WriteProgress& progress);
 
 /** Seconds per stage, peak memory and threads; the one file that differs from run to run. */
-void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer, int threads);
+void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer,
+                  const PreparationReport& preparation, int threads);
 
 /** What a user wants to know at the end of a run, a few lines. */
 std::string describeRun(const RunFolder& folder, const RunResult& result);

@@ -13,6 +13,7 @@
 #include "lamp/maps/MapExporter.h"
 #include "lamp/pose_graph/Optimizer.h"
 #include "lamp/registration/InitialAligner.h"
+#include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/registration/PreparedScanStore.h"
 #include "lamp/registration/Refiner.h"
 #include "lamp/registration/Verifier.h"
@@ -24,9 +25,10 @@ struct PipelineOptions {
   std::string odometry = "RecordedOdometry";
   std::vector<std::string> candidates = {"AdaptiveRadius"};
   std::string priority = "Arrival";
-  std::string initial_aligner = "Odometry";
+  std::vector<std::string> initial_aligner{"Odometry", "Teaser"};
   std::string refiner = "Gicp";
-  std::vector<std::string> verifiers = {"OverlapResidual", "GuessDeviation"};
+  std::vector<std::string> verifiers = {"GuessDeviation", "OverlapResidual", "FreeSpaceConsistency",
+                                        "BothDirections"};
   std::string optimizer = "Gnc";
   std::vector<std::string> exporters = {"Ply", "Pcd", "OctoMap", "Picture"};
   bool inter_robot_loops = true;
@@ -50,6 +52,16 @@ struct InputOptions {
   void visit(OptionVisitor& v);
 };
 
+struct RegistrationOptions {
+  PreparationOptions preparation;
+  AmbiguityOptions ambiguity;
+
+  void visit(OptionVisitor& v) {
+    preparation.visit(v);
+    ambiguity.visit(v);
+  }
+};
+
 struct RunOptions {
   int seed = 1;
 
@@ -60,7 +72,7 @@ struct RunOptions {
 struct Stages {
   std::vector<std::shared_ptr<CandidateGenerator>> candidates;
   std::shared_ptr<Prioritizer> priority;
-  std::shared_ptr<InitialAligner> initial_aligner;
+  std::vector<std::shared_ptr<InitialAligner>> initial_aligners;
   std::shared_ptr<Refiner> refiner;
   std::vector<std::shared_ptr<Verifier>> verifiers;
   std::shared_ptr<Optimizer> optimizer;
@@ -85,7 +97,7 @@ class SlamConfig {
   InputOptions input;
   PipelineOptions pipeline;
   FrontEndOptions frontend;
-  PreparationOptions preparation;
+  RegistrationOptions registration;
   BaseStationOptions base_station;
   std::vector<RobotOptions> robots;  ///< in the order of the ini
   Stages stages;

@@ -10,6 +10,14 @@
 
 namespace lamp {
 
+/** When two accepted hypotheses of one pair are different answers. */
+struct AmbiguityOptions {
+  double ambiguity_distance_m = 1.0;
+  double ambiguity_angle_deg = 10.0;
+
+  void visit(OptionVisitor& v);
+};
+
 /** Outcome of one attempt to close a loop. */
 struct LoopClosureAttempt {
   bool accepted = false;
@@ -19,28 +27,43 @@ struct LoopClosureAttempt {
   std::vector<Score> scores;
 };
 
-/** Align, refine, verify (paper II-C, "Loop closure computation"). */
+/** Align, refine, verify (paper II-C, "Loop closure computation").
+ *
+ * The aligners are asked in turn until one's hypotheses lead to a loop closure. All hypotheses of
+ * an aligner are followed to the end: if two that differ are accepted, the scans look alike in two
+ * ways, and there is no telling which is right.
+ */
 class LoopClosureComputation {
  public:
-  LoopClosureComputation(std::shared_ptr<const InitialAligner> aligner,
+  LoopClosureComputation(std::vector<std::shared_ptr<const InitialAligner>> aligners,
                          std::shared_ptr<const Refiner> refiner,
-                         std::vector<std::shared_ptr<const Verifier>> verifiers);
+                         std::vector<std::shared_ptr<const Verifier>> verifiers,
+                         const AmbiguityOptions& ambiguity);
 
-  /** Safe to call from many threads. */
+  /** Of several refused hypotheses the outcome is that of the one that came farthest. Safe to call
+   * from many threads. */
   LoopClosureAttempt compute(const PreparedScan& source, const PreparedScan& target,
                              const Guess& guess) const;
 
  private:
-  LoopClosureAttempt refineAndVerify(const PreparedScan& source, const PreparedScan& target,
-                                     const Guess& guess, const Hypothesis& hypothesis) const;
+  /** An attempt and how many steps it took before it was refused. */
+  struct Followed {
+    LoopClosureAttempt attempt;
+    size_t steps = 0;
+  };
+  Followed alignWith(const InitialAligner& aligner, const PreparedScan& source,
+                     const PreparedScan& target, const Guess& guess) const;
+  Followed refineAndVerify(const PreparedScan& source, const PreparedScan& target,
+                           const Guess& guess, const Hypothesis& hypothesis) const;
+  bool differ(const RegistrationResult& a, const RegistrationResult& b) const;
 
-  std::shared_ptr<const InitialAligner> aligner_;
+  std::vector<std::shared_ptr<const InitialAligner>> aligners_;
   std::shared_ptr<const Refiner> refiner_;
   std::vector<std::shared_ptr<const Verifier>> verifiers_;
+  AmbiguityOptions ambiguity_;
 };
 
-/** Registers Identity, Odometry, OdometryRotation, Gicp, PointToPlane, OverlapResidual and
- * GuessDeviation. */
+/** Registers all initial aligners, refiners and verifiers of this module. */
 void registerAllClasses_lamp_registration();
 
 }  // namespace lamp

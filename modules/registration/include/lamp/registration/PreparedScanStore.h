@@ -1,6 +1,8 @@
 #pragma once
 
+#include <list>
 #include <map>
+#include <mutex>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -14,15 +16,23 @@ namespace lamp {
 
 struct PreparationOptions {
   int accumulate_neighbors = 2;
+  int memory_limit_mb = 1000;
   ScanPreparationOptions scan;
 
   void visit(OptionVisitor& v);
 };
 
+/** What the preparation of scans has cost. */
+struct PreparationReport {
+  size_t scans = 0;    ///< prepared, those counted twice that had to be prepared again
+  double seconds = 0;  ///< of all threads together
+};
+
 /** Keyed scans of all key nodes, and what registration computes from them once.
  *
- * A source is the key node's scan alone; a target is accumulated from the neighbours before and
- * after it, placed by odometry (paper II-C), so that optimisation does not invalidate it.
+ * A scan is prepared together with its neighbours before and after it, placed by odometry (paper
+ * II-C), so that optimisation does not invalidate it. What was not used for longest goes when the
+ * memory is full, and is prepared again when it is needed.
  */
 class PreparedScanStore {
  public:
@@ -46,33 +56,46 @@ class PreparedScanStore {
   Key source(const LoopClosureCandidate& candidate) const { return key(candidate.to, candidate); }
   Key target(const LoopClosureCandidate& candidate) const { return key(candidate.from, candidate); }
 
+  /** Not while other threads get(). */
   void add(const KeyframePacket& packet);
-  /** The sorted, distinct keys among `wanted` that are not prepared yet, or were prepared before
-   * all their neighbours had arrived. */
-  std::vector<Key> missing(std::vector<Key> wanted) const;
-  /** Does the work for one key; safe to call from many threads while nothing else changes. */
-  PreparedScanPtr prepare(const Key& key) const;
-  void insert(const Key& key, PreparedScanPtr prepared);
-  /** \throws std::out_of_range if it was not inserted. */
-  PreparedScanPtr get(const Key& key) const { return entries_.at(key).prepared; }
+  /** The prepared scan, as of the key nodes added so far. Safe from many threads.
+   *  \throws std::out_of_range if the key node was not added. */
+  PreparedScanPtr get(const Key& key);
+
+  PreparationReport report() const;
 
  private:
-  Key key(KeyframeId id, const LoopClosureCandidate& candidate) const;
   struct Keyframe {
     Pose3 odom_T_base = Pose3::Identity();
     KeyedScanPtr scan;
     bool planar = false;
   };
+  /** A scan that one thread prepares while others that want it wait. */
   struct Entry {
+    size_t scans = 0;  ///< how many it is made of: fewer than members(), and it is out of date
+    std::once_flag once;
     PreparedScanPtr prepared;
-    size_t scans = 0;  ///< how many scans it was made of
+    bool counted = false;  ///< in bytes_
+    std::list<Key>::iterator use;
   };
+  using EntryPtr = std::shared_ptr<Entry>;
+
+  Key key(KeyframeId id, const LoopClosureCandidate& candidate) const;
   /** The key nodes whose scans make up the prepared one. */
   std::vector<KeyframeId> members(const Key& key) const;
+  PreparedScanPtr prepare(const Key& key) const;
+  EntryPtr find(const Key& key);
+  void account(const Key& key, const EntryPtr& entry);
+  void forget(std::map<Key, EntryPtr>::iterator entry);
 
-  PreparationOptions options_;
+  const PreparationOptions options_;
   std::unordered_map<KeyframeId, Keyframe> keyframes_;
-  std::map<Key, Entry> entries_;
+
+  mutable std::mutex mutex_;  ///< of all that follows
+  std::map<Key, EntryPtr> entries_;
+  std::list<Key> uses_;  ///< last used first
+  size_t bytes_ = 0;
+  PreparationReport forgotten_;  ///< of scans that are no longer in memory
 };
 
 }  // namespace lamp

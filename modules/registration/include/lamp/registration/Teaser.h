@@ -5,8 +5,9 @@
 
 namespace lamp {
 
-/** Aligns without a guess, by the recipe of TEASER (Yang, Shi, Carlone, T-RO 2021; paper II-C):
- * matches of descriptors that are consistent in pairs. */
+/** Aligns without a usable guess, by the recipe of TEASER (Yang, Shi, Carlone, T-RO 2021; paper
+ * II-C): matches of descriptors that are consistent in pairs. If the guess's covariance is known,
+ * matches that it rules out are not looked at. */
 class Teaser : public InitialAligner {
   DEFINE_MRPT_OBJECT(Teaser, lamp)
 

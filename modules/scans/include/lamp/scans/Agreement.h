@@ -12,7 +12,8 @@ struct Agreement {
   size_t matches = 0;
 };
 
-/** \param distance_m how near a partner must be; its normal must agree within 45°. */
+/** \param distance_m how near a partner must be; its normal must agree within 45°, and both must
+ * have been seen from the same side: a floor is no ceiling. */
 Agreement agreement(const PreparedScan& source, const PreparedScan& target,
                     const Pose3& target_T_source, double distance_m);
 

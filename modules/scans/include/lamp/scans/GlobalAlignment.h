@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,15 +24,24 @@ struct ConsistencyOptions {
   int min_inliers = 8;
   int max_hypotheses = 3;
   bool upright = false;
+  double guess_probability = 0.9999;
 
   void visit(OptionVisitor& v);
+};
+
+/** A pose and how wrong it may be. */
+struct UncertainPose {
+  Pose3 target_T_source = Pose3::Identity();
+  Matrix6d covariance = Matrix6d::Identity();  ///< tangent space at the pose
 };
 
 /** Poses that no guess is needed for, by the recipe of TEASER (Yang et al., T-RO 2021): matches of
  * descriptors; those that are consistent in pairs, since a rigid motion keeps distances; a maximum
  * clique of them; its pose. The next hypothesis comes from the matches that the pose before leaves
- * over. Most inliers first; none if fewer than `min_inliers` ever agree. */
+ * over. Most inliers first; none if fewer than `min_inliers` ever agree.
+ * \param guess where it is known how wrong a guess may be, matches beyond that are left out. */
 std::vector<GlobalPose> alignByConsistency(const Features& source, const Features& target,
+                                           const std::optional<UncertainPose>& guess,
                                            const ConsistencyOptions& options);
 
 }  // namespace lamp

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -52,8 +54,11 @@ class PreparedScan {
   const Features& features() const;
   /** Memory, with features, whether they have been asked for or not. */
   size_t bytes() const;
+  /** Time spent on all of it so far. */
+  double secondsOfPreparation() const { return seconds_; }
 
  private:
+  const std::chrono::steady_clock::time_point begun_;
   const FeatureOptions feature_options_;
   const bool planar_;
   const Cloud cloud_;
@@ -63,6 +68,7 @@ class PreparedScan {
   const FreeSpace free_space_;
   mutable std::once_flag features_made_;
   mutable Features features_;
+  mutable std::atomic<double> seconds_{0};
 };
 using PreparedScanPtr = std::shared_ptr<const PreparedScan>;
 

@@ -1,0 +1,29 @@
+#include "lamp/registration/OverlapResidual.h"
+
+#include "lamp/scans/Agreement.h"
+
+IMPLEMENTS_MRPT_OBJECT(OverlapResidual, lamp::Verifier, lamp)
+
+namespace lamp {
+
+void OverlapResidualOptions::visit(OptionVisitor& v) {
+  v("min_overlap", min_overlap, "", "share of the source's points that need a partner", kShare);
+  v("max_residual_m", max_residual_m, "m", "largest r.m.s. point-to-plane distance", kPositive);
+  v("partner_distance_m", partner_distance_m, "m", "how near a partner must lie", kPositive);
+}
+
+Verification OverlapResidual::verify(const RegistrationResult& result, const PreparedScan& source,
+                                     const PreparedScan& target, const Guess&) const {
+  const Agreement found =
+      agreement(source, target, result.target_T_source, options.partner_distance_m);
+  Verification verification;
+  verification.scores = {{"overlap", found.overlap, options.min_overlap},
+                         {"residual_m", found.residual_m, options.max_residual_m}};
+  if (found.overlap < options.min_overlap)
+    verification.refusal = "low overlap";
+  else if (found.residual_m > options.max_residual_m)
+    verification.refusal = "high residual";
+  return verification;
+}
+
+}  // namespace lamp
