@@ -7,6 +7,8 @@ namespace lamp {
 void PreparationOptions::visit(OptionVisitor& v) {
   v("accumulate_neighbors", accumulate_neighbors, "key nodes",
     "neighbours on each side whose scans join a key node's", kNotNegative);
+  v("accumulate_voxel_m", accumulate_voxel_m, "m",
+    "neighbours' points join where no other lies in a voxel of this edge", kPositive);
   v("memory_limit_mb", memory_limit_mb, "MB",
     "memory of prepared scans; what was not used for longest is prepared again when needed", {1});
   scan.visit(v);
@@ -42,7 +44,8 @@ PreparedScanPtr PreparedScanStore::prepare(const Key& key) const {
     const Keyframe& keyframe = keyframes_.at(id);
     scans.push_back({keyframe.scan, center.odom_T_base.inverse() * keyframe.odom_T_base});
   }
-  return std::make_shared<PreparedScan>(accumulate(scans), options_.scan, center.planar);
+  return std::make_shared<PreparedScan>(accumulate(scans, options_.accumulate_voxel_m),
+                                        options_.scan, center.planar);
 }
 
 PreparedScanPtr PreparedScanStore::get(const Key& key) {

@@ -1,5 +1,7 @@
 #include "lamp/registration/Refiner.h"
 
+#include <algorithm>
+
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Refiner, Stage, lamp)
 IMPLEMENTS_MRPT_OBJECT(Gicp, lamp::Refiner, lamp)
 IMPLEMENTS_MRPT_OBJECT(PointToPlane, lamp::Refiner, lamp)
@@ -11,7 +13,11 @@ namespace {
 RegistrationResult refineWith(IcpMetric metric, const RefinerOptions& options,
                               const PreparedScan& source, const PreparedScan& target,
                               const Hypothesis& hypothesis) {
-  const IcpResult icp_result = icp(source, target, hypothesis.target_T_source, metric, options.icp);
+  IcpOptions icp_options = options.icp;
+  if (hypothesis.accuracy_m)
+    icp_options.start_correspondence_m =
+        std::min(icp_options.start_correspondence_m, *hypothesis.accuracy_m);
+  const IcpResult icp_result = icp(source, target, hypothesis.target_T_source, metric, icp_options);
   RegistrationResult result;
   result.start = hypothesis.target_T_source;
   result.target_T_source = icp_result.target_T_source;

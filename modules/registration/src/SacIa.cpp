@@ -9,7 +9,7 @@ AlignmentResult SacIa::align(const PreparedScan& source, const PreparedScan& tar
   if (source.planar() || target.planar()) return {{}, "planar scans have no descriptors"};
   const auto pose = alignBySamples(source.features(), target, options);
   if (!pose) return {{}, "too few keypoints"};
-  return {{Hypothesis{pose->target_T_source, pose->inliers, pose->inlier_ratio}}, ""};
+  return {{Hypothesis{pose->target_T_source, pose->inliers, pose->inlier_ratio, std::nullopt}}, ""};
 }
 
 }  // namespace lamp

@@ -12,7 +12,8 @@ AlignmentResult Teaser::align(const PreparedScan& source, const PreparedScan& ta
   AlignmentResult result;
   for (const GlobalPose& pose :
        alignByConsistency(source.features(), target.features(), known, options))
-    result.hypotheses.push_back({pose.target_T_source, pose.inliers, pose.inlier_ratio});
+    result.hypotheses.push_back(
+        {pose.target_T_source, pose.inliers, pose.inlier_ratio, 2 * options.noise_bound_m});
   if (result.hypotheses.empty()) result.refusal = "too few consistent matches";
   return result;
 }

@@ -1,38 +1,11 @@
 #include "lamp/scans/Cloud.h"
 
 #include <unordered_map>
+#include <unordered_set>
 
 namespace lamp {
 
 using Eigen::Vector3f;
-
-Cloud cloudSeenFromOrigin(std::vector<Vector3f> points) {
-  Cloud cloud;
-  cloud.viewpoint.assign(points.size(), 0);
-  cloud.points = std::move(points);
-  cloud.viewpoints = {Vector3f::Zero()};
-  return cloud;
-}
-
-Cloud accumulate(const std::vector<PlacedScan>& scans) {
-  size_t total = 0;
-  for (const PlacedScan& placed : scans) total += placed.scan->size();
-  Cloud cloud;
-  cloud.own_viewpoints = scans.empty() ? 0 : scans.front().scan->sensors.size();
-  cloud.points.reserve(total);
-  cloud.viewpoint.reserve(total);
-  for (const PlacedScan& placed : scans) {
-    const Eigen::Isometry3f T = placed.target_T_scan.cast<float>();
-    const auto first = static_cast<uint32_t>(cloud.viewpoints.size());
-    for (const SensorOrigin& sensor : placed.scan->sensors)
-      cloud.viewpoints.push_back(T * sensor.position.cast<float>());
-    for (size_t i = 0; i < placed.scan->size(); ++i) {
-      cloud.points.push_back(T * placed.scan->points[i]);
-      cloud.viewpoint.push_back(first + placed.scan->sensor[i]);
-    }
-  }
-  return cloud;
-}
 
 namespace {
 
@@ -48,7 +21,48 @@ struct CellHash {
   }
 };
 
+Cell cellOf(const Vector3f& point, double leaf_m) {
+  const Eigen::Matrix<int64_t, 3, 1> cell =
+      (point.cast<double>() / leaf_m).array().floor().cast<int64_t>();
+  return {cell.x(), cell.y(), cell.z()};
+}
+
 }  // namespace
+
+bool isUsable(const Vector3f& point) {
+  constexpr float kFarthest_m = 1e6f;
+  return point.allFinite() && point.norm() < kFarthest_m;
+}
+
+Cloud cloudSeenFromOrigin(std::vector<Vector3f> points) {
+  Cloud cloud;
+  cloud.viewpoint.assign(points.size(), 0);
+  cloud.points = std::move(points);
+  cloud.viewpoints = {Vector3f::Zero()};
+  return cloud;
+}
+
+Cloud accumulate(const std::vector<PlacedScan>& scans, double leaf_m) {
+  Cloud cloud;
+  std::unordered_set<Cell, CellHash> filled;
+  cloud.own_viewpoints = scans.empty() ? 0 : scans.front().scan->sensors.size();
+  for (const PlacedScan& placed : scans) {
+    const Eigen::Isometry3f T = placed.target_T_scan.cast<float>();
+    const auto first_view = static_cast<uint32_t>(cloud.viewpoints.size());
+    const size_t first_point = cloud.size();
+    for (const SensorOrigin& sensor : placed.scan->sensors)
+      cloud.viewpoints.push_back(T * sensor.position.cast<float>());
+    for (size_t i = 0; i < placed.scan->size(); ++i) {
+      const Vector3f point = T * placed.scan->points[i];
+      if (!isUsable(point) || (first_point > 0 && filled.count(cellOf(point, leaf_m)))) continue;
+      cloud.points.push_back(point);
+      cloud.viewpoint.push_back(first_view + placed.scan->sensor[i]);
+    }
+    for (size_t i = first_point; i < cloud.size(); ++i)
+      filled.insert(cellOf(cloud.points[i], leaf_m));
+  }
+  return cloud;
+}
 
 Cloud voxelMeans(const Cloud& cloud, double leaf_m) {
   std::unordered_map<Cell, size_t, CellHash> place;
@@ -59,15 +73,13 @@ Cloud voxelMeans(const Cloud& cloud, double leaf_m) {
   means.viewpoints = cloud.viewpoints;
   means.own_viewpoints = cloud.own_viewpoints;
   for (size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3d p = cloud.points[i].cast<double>();
-    const Eigen::Matrix<int64_t, 3, 1> cell = (p / leaf_m).array().floor().cast<int64_t>();
-    const auto [found, is_new] = place.emplace(Cell{cell.x(), cell.y(), cell.z()}, sums.size());
+    const auto [found, is_new] = place.emplace(cellOf(cloud.points[i], leaf_m), sums.size());
     if (is_new) {
       sums.push_back(Eigen::Vector3d::Zero());
       counts.push_back(0);
       means.viewpoint.push_back(cloud.viewpoint[i]);
     }
-    sums[found->second] += p;
+    sums[found->second] += cloud.points[i].cast<double>();
     ++counts[found->second];
   }
   for (size_t k = 0; k < sums.size(); ++k)

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "VectorKernels.h"
+
 namespace lamp {
 
 namespace {
 
 using Bits = std::vector<uint64_t>;
 
+LAMP_FOR_SEVERAL_INSTRUCTION_SETS
 size_t count(const uint64_t* a, const uint64_t* b, size_t words) {
   size_t sum = 0;
   for (size_t w = 0; w < words; ++w) sum += static_cast<size_t>(__builtin_popcountll(a[w] & b[w]));

@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr size_t kMinMatches = 10;
-/** In the coarse iterations about so many points take part. */
-constexpr size_t kCoarsePoints = 800;
+/** In the coarse iterations, and in the fine ones, about so many points take part. */
+constexpr size_t kCoarsePoints = 500, kFinePoints = 1500;
 /** Steps below so many tolerances end the coarse iterations. */
 constexpr double kCoarseTolerance = 10;
 
@@ -250,6 +250,7 @@ IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose
   result.radius_m = rmsDistance(source, source_centroid);
   Matcher matcher(source, target);
   double distance = std::max(options.start_correspondence_m, options.correspondence_m);
+  const size_t fine_stride = std::max<size_t>(1, source.own().size() / kFinePoints);
   size_t stride = std::max<size_t>(1, source.own().size() / kCoarsePoints);
   while (result.iterations < options.max_iterations) {
     // The kernel narrows with the search distance: coarse matches still pull, fine ones decide.
@@ -272,12 +273,12 @@ IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose
                  step.tail<3>().norm() / (options.rotation_tolerance_deg * M_PI / 180.0));
     if (distance > options.correspondence_m) {
       distance = std::max(options.correspondence_m, distance * options.shrink_factor);
-    } else if (stride == 1 && share_of_tolerance < 1) {
+    } else if (stride == fine_stride && share_of_tolerance < 1) {
       result.converged = true;
       result.patches = matcher.patches();
       return result;
     } else if (share_of_tolerance < kCoarseTolerance) {
-      stride = 1;
+      stride = fine_stride;
     }
   }
   return result;

@@ -18,8 +18,6 @@ double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-constexpr float kFarthest_m = 1e6f;
-
 /** Spreads the lowest 21 bits so that two more numbers fit between them. */
 uint64_t spreadBits(uint64_t v) {
   v &= 0x1fffff;
@@ -44,8 +42,7 @@ Cloud inNeighborlyOrder(const Cloud& cloud) {
   std::vector<std::pair<uint64_t, uint32_t>> order;
   order.reserve(cloud.size());
   for (uint32_t i = 0; i < cloud.size(); ++i)
-    if (cloud.points[i].allFinite() && cloud.points[i].norm() < kFarthest_m)
-      order.emplace_back(mortonNumber(cloud.points[i]), i);
+    if (isUsable(cloud.points[i])) order.emplace_back(mortonNumber(cloud.points[i]), i);
   std::sort(order.begin(), order.end());
   Cloud result;
   result.viewpoints = cloud.viewpoints;

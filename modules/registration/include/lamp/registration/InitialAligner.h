@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct Hypothesis {
   Pose3 target_T_source = Pose3::Identity();
   size_t inliers = 0;       ///< matches that agree on it; 0 from aligners that match nothing
   double inlier_ratio = 0;  ///< of all matches
+  /** How far points may lie from where they should, metres; none where the aligner cannot tell. */
+  std::optional<double> accuracy_m;
 };
 
 /** Hypotheses, best first; none with the reason why. */

@@ -16,6 +16,7 @@ namespace lamp {
 
 struct PreparationOptions {
   int accumulate_neighbors = 2;
+  double accumulate_voxel_m = 0.2;
   int memory_limit_mb = 1000;
   ScanPreparationOptions scan;
 

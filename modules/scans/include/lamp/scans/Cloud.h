@@ -22,6 +22,9 @@ struct Cloud {
   const Eigen::Vector3f& viewpointOf(size_t i) const { return viewpoints[viewpoint[i]]; }
 };
 
+/** Finite, and within 1000 km: what a cell of a grid can be computed for. */
+bool isUsable(const Eigen::Vector3f& point);
+
 /** Points that were all seen from the origin of their frame. */
 Cloud cloudSeenFromOrigin(std::vector<Eigen::Vector3f> points);
 
@@ -31,8 +34,10 @@ struct PlacedScan {
   Pose3 target_T_scan = Pose3::Identity();
 };
 
-/** The points of several scans in one frame; the first one is the cloud's own. */
-Cloud accumulate(const std::vector<PlacedScan>& scans);
+/** The points of several scans in one frame. All of the first one's, which is the cloud's own; of
+ * the others, those in cells of a grid with edge `leaf_m` (metres) where there is nothing yet: they
+ * fill what the own scan did not see, and do not blur what it saw. */
+Cloud accumulate(const std::vector<PlacedScan>& scans, double leaf_m);
 
 /** One point, the mean, for each occupied cell of a grid with edge `leaf_m` (metres); its viewpoint
  * is that of the cell's first point. Order: by first point. */
