@@ -141,7 +141,7 @@ class Search {
     }
   }
 
-  static constexpr size_t kSeeds = 30;
+  static constexpr size_t kSeeds = 12;
 
   const ConsistencyGraph& graph_;
   size_t branches_left_;

@@ -5,7 +5,7 @@
 namespace lamp {
 
 struct GuessDeviationOptions {
-  double probability = 0.9999;
+  double probability = 0.99;
   double slack_m = 0.3;
   double slack_deg = 5.0;
 

@@ -28,7 +28,7 @@ class ConsistencyGraph {
 };
 
 struct CliqueSearch {
-  size_t max_branches = 2000;  ///< after so many the best clique so far is returned
+  size_t max_branches = 500;  ///< after so many the best clique so far is returned
 };
 
 /** A maximum clique among the vertices that are `allowed`, ascending; exact unless the search ran

@@ -24,7 +24,7 @@ struct ConsistencyOptions {
   int min_inliers = 8;
   int max_hypotheses = 3;
   bool upright = false;
-  double guess_probability = 0.9999;
+  double guess_probability = 0.99;
 
   void visit(OptionVisitor& v);
 };
