@@ -28,9 +28,11 @@ class ScriptedRefiner : public Refiner {
     ++calls;
     RegistrationResult result;
     result.target_T_source = hypothesis.target_T_source;
+    result.information = information;
     result.converged = hypothesis.target_T_source.translation().x() < 10;
     return result;
   }
+  Matrix6d information = Matrix6d::Identity();
   mutable int calls = 0;
 };
 
@@ -71,12 +73,13 @@ class LoopClosureComputationTest : public testing::Test {
   }
 
   void hypothesesAt(const std::vector<double>& xs) const {
-    for (const double x : xs) aligner->answer.hypotheses.push_back({planarPose(x, 0, 0)});
+    for (const double x : xs) aligner->answer.hypotheses.push_back(Hypothesis{planarPose(x, 0, 0)});
   }
 
   LoopClosureAttempt compute() const {
     const auto scan = prepareScan({}, 3, false);
-    return LoopClosureComputation(aligner, refiner, {first, second}).compute(*scan, *scan, {});
+    return LoopClosureComputation({aligner}, refiner, {first, second}, {})
+        .compute(*scan, *scan, {});
   }
 
   const std::shared_ptr<ScriptedAligner> aligner = std::make_shared<ScriptedAligner>();
@@ -132,27 +135,64 @@ TEST_F(LoopClosureComputationTest, TheFirstVerifierThatRefusesIsNamed) {
   EXPECT_EQ(second->calls, 0);
 }
 
-TEST_F(LoopClosureComputationTest, TriesHypothesesInOrderUntilOneIsAccepted) {
-  hypothesesAt({12, 1, 6, 7});
+TEST_F(LoopClosureComputationTest, FollowsAllHypothesesAndTakesTheFirstThatIsAccepted) {
+  hypothesesAt({12, 1, 6, 6.5});
   first->limit = 5;
   const LoopClosureAttempt attempt = compute();
   EXPECT_TRUE(attempt.accepted);
   EXPECT_DOUBLE_EQ(attempt.result.target_T_source.translation().x(), 6);
-  EXPECT_EQ(refiner->calls, 3);
+  EXPECT_EQ(refiner->calls, 4);
   EXPECT_EQ(attempt.scores.size(), 2u) << "scores of the accepted hypothesis only";
+}
+
+TEST_F(LoopClosureComputationTest, TwoDifferentAnswersAreNone) {
+  hypothesesAt({3, 5});
+  const LoopClosureAttempt attempt = compute();
+  EXPECT_FALSE(attempt.accepted);
+  EXPECT_EQ(attempt.stage, "Aligner");
+  EXPECT_EQ(attempt.reason, "ambiguous");
+}
+
+TEST_F(LoopClosureComputationTest, AnswersThatDifferWhereNothingIsKnownAreOne) {
+  hypothesesAt({3, 5});
+  refiner->information.diagonal()[0] = 0;
+  EXPECT_TRUE(compute().accepted);
+}
+
+TEST_F(LoopClosureComputationTest, TheRefusalOfTheHypothesisThatCameFarthestIsTold) {
+  hypothesesAt({12, 3, 1});
+  first->limit = 2;
+  second->limit = 4;
+  const LoopClosureAttempt attempt = compute();
+  EXPECT_EQ(attempt.stage, "Second@strict");
+  EXPECT_DOUBLE_EQ(attempt.result.target_T_source.translation().x(), 3);
+}
+
+TEST_F(LoopClosureComputationTest, TheNextAlignerIsAskedIfTheFirstOneFails) {
+  const auto other = std::make_shared<ScriptedAligner>();
+  other->answer.hypotheses = {Hypothesis{planarPose(7, 0, 0)}};
+  hypothesesAt({3});
+  const auto scan = prepareScan({}, 3, false);
+  const LoopClosureComputation both({aligner, other}, refiner, {first, second}, {});
+  EXPECT_DOUBLE_EQ(both.compute(*scan, *scan, {}).result.target_T_source.translation().x(), 3);
+  first->limit = 5;
+  const LoopClosureAttempt attempt = both.compute(*scan, *scan, {});
+  EXPECT_TRUE(attempt.accepted);
+  EXPECT_DOUBLE_EQ(attempt.result.target_T_source.translation().x(), 7);
 }
 
 TEST_F(LoopClosureComputationTest, WithoutVerifiersConvergenceIsEnough) {
   hypothesesAt({3});
   const auto scan = prepareScan({}, 3, false);
-  EXPECT_TRUE(LoopClosureComputation(aligner, refiner, {}).compute(*scan, *scan, {}).accepted);
+  EXPECT_TRUE(
+      LoopClosureComputation({aligner}, refiner, {}, {}).compute(*scan, *scan, {}).accepted);
 }
 
 TEST_F(LoopClosureComputationTest, RealStagesCloseALoopAndRefuseAWrongPlace) {
   registered(CLASS_ID(Stage));
   const LoopClosureComputation computation(
-      makeDefault<InitialAligner>("Odometry"), makeDefault<Refiner>("Gicp"),
-      {makeDefault<Verifier>("OverlapResidual"), makeDefault<Verifier>("GuessDeviation")});
+      {makeDefault<InitialAligner>("Odometry")}, makeDefault<Refiner>("Gicp"),
+      {makeDefault<Verifier>("OverlapResidual"), makeDefault<Verifier>("GuessDeviation")}, {});
   const RoomPair room(expSE3(tangent(0.8, -0.5, 0.1, 0.02, 0.01, 0.3)), false);
   const Guess guess{room.truth * planarPose(0.4, 0.3, 0.1), 0.1 * Matrix6d::Identity()};
   const LoopClosureAttempt right = computation.compute(*room.source, *room.target, guess);

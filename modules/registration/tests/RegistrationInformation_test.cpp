@@ -1,0 +1,163 @@
+#include "lamp/registration/RegistrationInformation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "TestScans.h"
+
+namespace lamp {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+/** Points of a surface with their normals. */
+struct Surface {
+  Points points, normals;
+};
+
+/** What an ICP says that has matched all points of a surface, about the pivot. */
+IcpResult icpOn(const Surface& surface, const Eigen::Vector3d& pivot = Eigen::Vector3d::Zero()) {
+  IcpResult result;
+  double squares = 0;
+  for (size_t i = 0; i < surface.points.size(); ++i) {
+    const Eigen::Vector3d lever = surface.points[i].cast<double>();
+    const Eigen::Vector3d n = surface.normals[i].cast<double>();
+    Vector6d h;
+    h << n, lever.cross(n);
+    result.information += h * h.transpose();
+    squares += lever.squaredNorm();
+  }
+  result.pivot = pivot;
+  result.weights = static_cast<double>(surface.points.size());
+  result.patches = result.weights / 10;
+  result.radius_m = std::sqrt(squares / result.weights);
+  result.residual_m = 0.04;
+  return result;
+}
+
+/** A tunnel with a square profile, infinitely smooth, along the unit vector `axis`. */
+Surface tunnel(const Eigen::Vector3f& axis) {
+  const Eigen::Quaternionf R = Eigen::Quaternionf::FromTwoVectors(Eigen::Vector3f::UnitX(), axis);
+  Surface surface;
+  for (float x = -5; x <= 5; x += 0.5f)
+    for (float s = -1.5f; s <= 1.5f; s += 0.25f)
+      for (const float side : {-1.5f, 1.5f}) {
+        surface.points.push_back(R * Eigen::Vector3f(x, side, s));
+        surface.normals.push_back(R * Eigen::Vector3f::UnitY());
+        surface.points.push_back(R * Eigen::Vector3f(x, s, side));
+        surface.normals.push_back(R * Eigen::Vector3f::UnitZ());
+      }
+  return surface;
+}
+
+/** The tunnel with walls at both ends. */
+Surface room() {
+  Surface surface = tunnel(Eigen::Vector3f::UnitX());
+  for (float y = -1.5f; y <= 1.5f; y += 0.25f)
+    for (float z = -1.5f; z <= 1.5f; z += 0.25f)
+      for (const float end : {-5.0f, 5.0f}) {
+        surface.points.emplace_back(end, y, z);
+        surface.normals.emplace_back(1, 0, 0);
+      }
+  return surface;
+}
+
+TEST(RegistrationInformation, IsTheInverseOfTheModelsCovarianceWhereAllIsObserved) {
+  RegistrationInformationOptions options;
+  const IcpResult icp = icpOn(room());
+  const RegistrationInformation known = registrationInformation(icp, options, false);
+  EXPECT_TRUE(known.unobserved.empty());
+  const double variance = 0.04 * 0.04 + options.sigma_m * options.sigma_m;
+  Matrix6d expected = variance * (icp.information * icp.patches / icp.weights).inverse();
+  expected.diagonal().head<3>().array() += options.floor_sigma_m * options.floor_sigma_m;
+  expected.diagonal().tail<3>().array() += std::pow(options.floor_sigma_deg * kDegree, 2);
+  EXPECT_LT((known.information.inverse() - expected).norm(), 1e-9 * expected.norm());
+}
+
+TEST(RegistrationInformation, BelongsToTheTangentSpaceAtThePose) {
+  // Points that were at `lever` about the pivot are elsewhere in the source's frame.
+  IcpResult icp = icpOn(room(), {3, -2, 1});
+  icp.target_T_source = expSE3(tangent(1, 2, 0.5, 0.3, -0.2, 1.2));
+  const Matrix6d information = registrationInformation(icp, {}, false).information;
+  // A motion about the pivot, seen from the source: T Exp(d) = P Exp(m) P^-1 T.
+  const Pose3 P = Pose3(Eigen::Translation3d(icp.pivot));
+  const Matrix6d about_pivot = registrationInformation(icpOn(room()), {}, false).information;
+  const Vector6d d = 1e-4 * tangent(1, -2, 3, 0.4, 0.5, -0.6);
+  const Vector6d m =
+      logSE3(P.inverse() * icp.target_T_source * expSE3(d) * icp.target_T_source.inverse() * P);
+  const double expected = m.dot(about_pivot * m);
+  EXPECT_NEAR(d.dot(information * d), expected, 1e-3 * expected);
+}
+
+TEST(RegistrationInformation, KnowsNothingAlongATunnelAndSaysSo) {
+  for (const Eigen::Vector3f& axis :
+       {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(1, 2, -1)}) {
+    const Eigen::Vector3d along = axis.normalized().cast<double>();
+    const RegistrationInformation known =
+        registrationInformation(icpOn(tunnel(axis.normalized())), {}, false);
+    ASSERT_EQ(known.unobserved.size(), 1u);
+    EXPECT_THAT(known.unobserved[0], HasSubstr("translation along"));
+    Vector6d slide = Vector6d::Zero();
+    slide.head<3>() = along;
+    EXPECT_LT(slide.dot(known.information * slide), 1e-6);
+    slide.head<3>() = along.unitOrthogonal();
+    EXPECT_GT(slide.dot(known.information * slide), 100.0) << "the walls hold it across";
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(known.information);
+    EXPECT_GT(eigen.eigenvalues()[1], 10.0) << "and nothing else is lost";
+  }
+}
+
+TEST(RegistrationInformation, APlaneKnowsItsHeightAndItsTilt) {
+  Surface plane;
+  for (float x = -3; x <= 3; x += 0.25f)
+    for (float y = -3; y <= 3; y += 0.25f) {
+      plane.points.emplace_back(x, y, 0);
+      plane.normals.emplace_back(0, 0, 1);
+    }
+  const RegistrationInformation known = registrationInformation(icpOn(plane), {}, false);
+  EXPECT_EQ(known.unobserved.size(), 3u);
+  const Vector6d diagonal = known.information.diagonal();
+  for (const int axis : {0, 1, 5}) EXPECT_NEAR(diagonal[axis], 0, 1e-9);
+  for (const int axis : {2, 3, 4}) EXPECT_GT(diagonal[axis], 100);
+}
+
+TEST(RegistrationInformation, InThePlaneOnlyItsOwnAxesAreMissed) {
+  Surface corridor, hall;
+  for (float x = -5; x <= 5; x += 0.1f)
+    for (const float y : {-1.0f, 1.0f}) {
+      corridor.points.emplace_back(x, y, 0);
+      corridor.normals.emplace_back(0, 1, 0);
+    }
+  hall = corridor;
+  for (float y = -1; y <= 1; y += 0.1f) {
+    hall.points.emplace_back(5, y, 0);
+    hall.normals.emplace_back(1, 0, 0);
+  }
+  const RegistrationInformation along = registrationInformation(icpOn(corridor), {}, true);
+  ASSERT_EQ(along.unobserved.size(), 1u);
+  EXPECT_THAT(along.unobserved[0], HasSubstr("translation along"));
+  EXPECT_NEAR(along.information(0, 0), 0, 1e-9);
+  EXPECT_GT(along.information(1, 1), 100);
+  EXPECT_TRUE(registrationInformation(icpOn(hall), {}, true).unobserved.empty());
+}
+
+TEST(RegistrationInformation, FewerPatchesKnowLess) {
+  IcpResult few = icpOn(room()), many = few;
+  many.patches = 10 * few.patches;
+  RegistrationInformationOptions options;
+  options.floor_sigma_m = options.floor_sigma_deg = 1e-9;
+  const double of_few = registrationInformation(few, options, false).information(0, 0);
+  const double of_many = registrationInformation(many, options, false).information(0, 0);
+  EXPECT_NEAR(of_many, 10 * of_few, 1e-6 * of_many);
+}
+
+TEST(RegistrationInformation, IsNoneWithoutMatches) {
+  EXPECT_TRUE(registrationInformation({}, {}, false).information.isZero());
+  EXPECT_TRUE(registrationInformation({}, {}, true).information.isZero());
+}
+
+}  // namespace
+}  // namespace lamp
