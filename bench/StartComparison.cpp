@@ -14,6 +14,7 @@
 
 #include "FrontEndTeam.h"
 #include "lamp/base_station/BaseStation.h"
+#include "lamp/core/ChiSquare.h"
 #include "lamp/core/Csv.h"
 #include "lamp/core/Program.h"
 #include "lamp/input/RawlogSource.h"
@@ -87,6 +88,8 @@ struct Tally {
   double translation = 0, rotation = 0;
   double seconds_accepted = 0, seconds_refused = 0;
   int refused = 0;
+  std::vector<double> d2;                  ///< of right ones with full information
+  Vector6d normalized = Vector6d::Zero();  ///< squared errors by claimed variances
   std::map<std::string, int> reasons;
 };
 
@@ -104,6 +107,26 @@ Error errorOf(const RegistrationResult& result, const Pose3& truth) {
       known += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
   d = known * d;
   return {d.head<3>().norm(), d.tail<3>().norm() * 180 / M_PI};
+}
+
+/** Adds how well the claimed covariance covers the error; full ranks only. */
+void addCalibration(const RegistrationResult& result, const Pose3& truth, Tally& tally) {
+  const Vector6d d = logSE3(result.target_T_source.inverse() * truth);
+  if (!result.unobserved.empty()) return;
+  const Matrix6d covariance = result.information.inverse();
+  tally.d2.push_back(d.dot(result.information * d));
+  tally.normalized += d.cwiseAbs2().cwiseQuotient(covariance.diagonal());
+}
+
+void printCalibration(const Tally& t) {
+  if (t.d2.empty()) return;
+  const auto count = static_cast<double>(t.d2.size());
+  const double limit = chiSquareQuantile(0.95, 6);
+  const auto over = std::count_if(t.d2.begin(), t.d2.end(), [&](double d2) { return d2 > limit; });
+  std::printf("    covariance: %.1f %% of d2 over chi2(0.95), normalised variances",
+              100.0 * static_cast<double>(over) / count);
+  for (int k = 0; k < 6; ++k) std::printf(" %.2f", t.normalized[k] / count);
+  std::printf(" (%zu with full information)\n", t.d2.size());
 }
 
 void printRow(const std::string& start, const Tally& t) {
@@ -216,12 +239,14 @@ void run(const std::string& world, int count, unsigned seed, const std::vector<s
       ++tally.accepted;
       tally.translation += error.m;
       tally.rotation += error.deg;
-      if (error.m <= 0.2 && error.deg <= 2)
+      if (error.m <= 0.2 && error.deg <= 2) {
         ++tally.right;
-      else if (error.m > 1 || error.deg > 5)
+        addCalibration(attempt.result, pair.from_T_to, tally);
+      } else if (error.m > 1 || error.deg > 5)
         ++tally.wrong;
     }
     printRow(start, tally);
+    printCalibration(tally);
   }
 }
 

@@ -38,10 +38,10 @@ class OneAnswer : public Refiner {
                             const Hypothesis& hypothesis) const override {
     RegistrationResult result;
     result.target_T_source = hypothesis.target_T_source;
-    if (source.size() != 12) return result;
+    if (source.own().size() != 12) return result;
     result.converged = true;
     result.target_T_source = planarPose(16, 0, 0);
-    result.covariance = variance * Matrix6d::Identity();
+    result.information = Matrix6d::Identity() / variance;
     return result;
   }
   double variance = 1e-6;

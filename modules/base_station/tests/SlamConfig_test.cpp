@@ -8,6 +8,7 @@
 
 #include "TestTeam.h"
 #include "lamp/core/Files.h"
+#include "lamp/registration/OverlapResidual.h"
 
 namespace lamp {
 namespace {
@@ -45,7 +46,8 @@ TEST(SlamConfig, AnEmptyIniGivesTheDefaults) {
   EXPECT_EQ(config.stages.candidates.size(), 1u);
   EXPECT_EQ(config.stages.candidates[0]->getLoggerName(), "AdaptiveRadius");
   EXPECT_EQ(config.stages.refiner->getLoggerName(), "Gicp");
-  EXPECT_EQ(config.stages.verifiers.size(), 2u);
+  EXPECT_EQ(config.stages.initial_aligners.size(), 2u);
+  EXPECT_EQ(config.stages.verifiers.size(), 4u);
   EXPECT_EQ(config.stages.exporters.size(), config.pipeline.exporters.size());
   EXPECT_TRUE(config.robots.empty());
   EXPECT_NE(config.makeOdometry(), config.makeOdometry()) << "one for each robot";
@@ -78,8 +80,11 @@ TEST(SlamConfig, ReportsAllFaultsOfAFileAtOnceWithTheirLines) {
     FAIL() << "must not be accepted";
   } catch (const ConfigError& error) {
     const std::string faults = error.what();
-    EXPECT_THAT(faults, HasSubstr(path + ":2: [pipeline] verifiers: there is no verifier "
-                                         "'Nonsense'; known: GuessDeviation, OverlapResidual"));
+    EXPECT_THAT(
+        faults,
+        HasSubstr(path + ":2: [pipeline] verifiers: there is no verifier "
+                         "'Nonsense'; known: BothDirections, "
+                         "FreeSpaceConsistency, GuessDeviation, OverlapResidual, PclFitness"));
     EXPECT_THAT(faults, HasSubstr(path + ":3: [pipeline] optimizer: there is no optimizer 'Gcn' "
                                          "(did you mean 'Gnc'?)"));
     EXPECT_THAT(faults, HasSubstr(path + ":4: [pipeline] priority: needs a name"));

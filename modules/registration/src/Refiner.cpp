@@ -27,8 +27,10 @@ RegistrationResult refineWith(IcpMetric metric, const RefinerOptions& options,
       registrationInformation(icp_result, options.information, source.planar() && target.planar());
   result.information = known.information;
   result.unobserved = known.unobserved;
-  result.scores = {
-      {"observability", known.observability.translation[0], options.information.min_observability}};
+  result.scores = {{"translation_observability", known.observability.translation[0],
+                    options.information.min_translation_observability},
+                   {"rotation_observability", known.observability.rotation[0],
+                    options.information.min_rotation_observability}};
   return result;
 }
 

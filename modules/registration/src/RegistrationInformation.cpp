@@ -24,13 +24,14 @@ std::string describe(const char* motion, const Vector3d& axis) {
  * axis with what the other kind of motion does to go along. */
 class WeakMotions {
  public:
-  WeakMotions(const Matrix6d& scaled, const Observability& observability, double least, bool planar)
+  WeakMotions(const Matrix6d& scaled, const Observability& observability,
+              const RegistrationInformationOptions& options, bool planar)
       : scaled_(scaled), planar_(planar) {
     for (int k = 0; k < 3; ++k)
-      if (observability.translation[k] < least)
+      if (observability.translation[k] < options.min_translation_observability)
         add("translation along", observability.translations.col(k), 0);
     for (int k = 0; k < 3; ++k)
-      if (observability.rotation[k] < least)
+      if (observability.rotation[k] < options.min_rotation_observability)
         add("rotation about", observability.rotations.col(k), 3);
   }
 
@@ -68,8 +69,12 @@ class WeakMotions {
 
 void RegistrationInformationOptions::visit(OptionVisitor& v) {
   v("sigma_m", sigma_m, "m", "noise of a patch of surface, added to the residual's", kPositive);
-  v("min_observability", min_observability, "",
-    "directions in which a smaller share of the points stands in the way carry no information",
+  v("min_translation_observability", min_translation_observability, "",
+    "translations that a smaller share of the points stands in the way of carry no information",
+    kShare);
+  v("min_rotation_observability", min_rotation_observability, "",
+    "the same for rotations, as lengths at the points' r.m.s. distance: about a tunnel's axis the "
+    "levers are short",
     kShare);
   v("floor_sigma_m", floor_sigma_m, "m", "added to each coordinate: what the model leaves out",
     kPositive);
@@ -87,7 +92,7 @@ RegistrationInformation registrationInformation(const IcpResult& icp,
   Vector6d scale = Vector6d::Ones();
   scale.tail<3>() /= icp.radius_m;
   const Matrix6d scaled = scale.asDiagonal() * icp.information * scale.asDiagonal() / icp.weights;
-  const WeakMotions weak(scaled, result.observability, options.min_observability, planar);
+  const WeakMotions weak(scaled, result.observability, options, planar);
   const MatrixXd Q = weak.observed();
   for (const std::string& name : weak.names()) result.unobserved.push_back(name);
   if (Q.cols() == 0) return result;

@@ -5,7 +5,7 @@
 namespace lamp {
 
 struct FreeSpaceConsistencyOptions {
-  double max_share = 0.15;
+  double max_share = 0.2;
   double margin_m = 0.3;
 
   void visit(OptionVisitor& v);

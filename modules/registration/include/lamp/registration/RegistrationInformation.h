@@ -11,9 +11,10 @@ namespace lamp {
 
 struct RegistrationInformationOptions {
   double sigma_m = 0.03;
-  double min_observability = 0.01;
-  double floor_sigma_m = 0.05;
-  double floor_sigma_deg = 0.5;
+  double min_translation_observability = 0.01;
+  double min_rotation_observability = 0.002;
+  double floor_sigma_m = 0.035;
+  double floor_sigma_deg = 0.12;
 
   void visit(OptionVisitor& v);
 };
