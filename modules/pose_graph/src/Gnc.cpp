@@ -20,8 +20,8 @@ class GncRun {
       : graph_(graph),
         options_(options),
         guess_(initialGuess(graph)),
-        problem_(makePoseProblem(graph, guess_)),
-        tls_{chiSquareQuantile(options.inlier_probability, problem_->degreesOfFreedom())} {
+        problem_(makePoseProblem(options.solver, graph, guess_)),
+        tls_{chiSquareQuantile(options.inlier_probability, graph.planar() ? 3 : 6)} {
     for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
       if (graph.edges()[e].mayBeRejected()) loops_.push_back(e);
     weights_.assign(loops_.size(), 1.0);
@@ -113,7 +113,7 @@ class GncRun {
   const std::vector<Pose3> guess_;
   std::unique_ptr<PoseProblem> problem_;
   TruncatedLeastSquares tls_;
-  LmOptions inner_;
+  SolverOptions inner_;
   std::vector<EdgeIndex> loops_;
   std::vector<double> weights_;  ///< of the loops
   SolveSummary last_;
@@ -125,6 +125,7 @@ class GncRun {
 }  // namespace
 
 void GncOptions::visit(OptionVisitor& v) {
+  v("solver", solver, "least-squares solver of each round", solverNames());
   v("inlier_probability", inlier_probability, "",
     "share of true loop closures whose squared residual is to stay below the threshold",
     {0.0, 1.0 - 1e-12});

@@ -6,6 +6,7 @@
 
 #include "TestGraphs.h"
 #include "lamp/core/ChiSquare.h"
+#include "lamp/pose_graph/PlainOptimizers.h"
 
 namespace lamp {
 namespace {
@@ -142,7 +143,8 @@ TEST(Gnc, EmptyGraphAndLoneNode) {
 
 TEST(Gnc, MadeByNameAndListed) {
   registerAllClasses_lamp_pose_graph();
-  EXPECT_EQ(stageClasses(CLASS_ID(Optimizer)), (std::vector<std::string>{"Gnc", "Lm"}));
+  EXPECT_EQ(stageClasses(CLASS_ID(Optimizer)),
+            (std::vector<std::string>{"CeresLm", "Gn", "Gnc", "Lm"}));
   Faults faults;
   const Ini ini = Ini::fromText("[lamp::Gnc]\nmu_step = 2\nmax_iterations = 7\n", "t.ini", faults);
   EXPECT_TRUE(makeStage<Optimizer>(StageName::parse("Gnc"), "optimizer", "t.ini", ini, faults));

@@ -1,15 +1,17 @@
 #pragma once
 
-#include "lamp/pose_graph/Lm.h"
+#include "lamp/pose_graph/Optimizer.h"
+#include "lamp/pose_graph/SolverOptions.h"
 
 namespace lamp {
 
 struct GncOptions {
+  std::string solver = "Lm";
   double inlier_probability = 0.9999;
   double mu_step = 1.4;
   int max_rounds = 100;
   int inner_iterations = 6;
-  LmOptions final_solve;
+  SolverOptions final_solve;
 
   void visit(OptionVisitor& v);
 };

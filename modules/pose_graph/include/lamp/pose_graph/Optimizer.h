@@ -42,7 +42,7 @@ class Optimizer : public Stage {
 /** Writes poses, verdicts, weights and residuals of a usable result back into the graph. */
 void applyResult(const OptimizationResult& result, PoseGraph& graph);
 
-/** Registers Lm and Gnc. */
+/** Registers the stages of this module. */
 void registerAllClasses_lamp_pose_graph();
 
 }  // namespace lamp

@@ -1,25 +1,24 @@
-#include "lamp/pose_graph/Lm.h"
+#include "lamp/pose_graph/PlainOptimizers.h"
 
 #include "PoseProblem.h"
 
-IMPLEMENTS_MRPT_OBJECT(Lm, Optimizer, lamp)
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(PlainOptimizer, Optimizer, lamp)
+IMPLEMENTS_MRPT_OBJECT(Lm, PlainOptimizer, lamp)
+IMPLEMENTS_MRPT_OBJECT(Gn, PlainOptimizer, lamp)
+IMPLEMENTS_MRPT_OBJECT(CeresLm, PlainOptimizer, lamp)
 
 namespace lamp {
 
-void LmOptions::visit(OptionVisitor& v) {
-  v("max_iterations", max_iterations, "", "most Levenberg-Marquardt iterations of a solve",
-    kPositive);
+void SolverOptions::visit(OptionVisitor& v) {
+  v("max_iterations", max_iterations, "", "most iterations of a solve", kPositive);
   v("function_tolerance", function_tolerance, "",
-    "A solve stops when an iteration lowers the cost by less than this share", kNotNegative);
-  v("initial_trust_region_radius", initial_trust_region_radius, "",
-    "first radius of the trust region; large values make the first steps Gauss-Newton steps",
-    kPositive);
+    "a solve stops when an iteration lowers the cost by less than this share", kNotNegative);
 }
 
-OptimizationResult Lm::optimize(const PoseGraph& graph) {
+OptimizationResult PlainOptimizer::optimize(const PoseGraph& graph) {
   std::vector<Pose3> current;
   for (const Node& node : graph.nodes()) current.push_back(node.world_T_base);
-  const std::unique_ptr<PoseProblem> problem = makePoseProblem(graph, current);
+  const std::unique_ptr<PoseProblem> problem = makePoseProblem(solver(), graph, current);
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
     if (!graph.edges()[e].active()) problem->setWeight(e, 0.0);
   const SolveSummary summary = problem->solve(options_);
