@@ -1,7 +1,10 @@
 #include "lamp/pose_graph/Gnc.h"
 
 #include <algorithm>
+#include <array>
 
+#include "GemanMcClure.h"
+#include "Information.h"
 #include "PoseProblem.h"
 #include "TruncatedLeastSquares.h"
 #include "lamp/core/ChiSquare.h"
@@ -13,48 +16,89 @@ namespace lamp {
 
 namespace {
 
+const char* const kTruncated = "TruncatedLeastSquares";
+const char* const kGemanMcClure = "GemanMcClure";
+
+std::unique_ptr<Graduation> makeGraduation(const std::string& loss) {
+  if (loss == kGemanMcClure) return std::make_unique<GemanMcClure>();
+  return std::make_unique<TruncatedLeastSquares>();
+}
+
+/** A loop closure that may be rejected. */
+struct GncLoop {
+  EdgeIndex edge;
+  double threshold;  ///< the largest squared residual of an inlier
+  double weight = 1.0;
+};
+
+std::vector<GncLoop> gncLoops(const PoseGraph& graph, const std::vector<bool>& admitted,
+                              double inlier_probability) {
+  std::array<double, 7> thresholds{};
+  for (int rank = 1; rank <= 6; ++rank)
+    thresholds[rank] = chiSquareQuantile(inlier_probability, rank);
+  std::vector<GncLoop> loops;
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
+    const Edge& edge = graph.edges()[e];
+    if (!edge.mayBeRejected() || !admitted[e]) continue;
+    const int rank = std::max(1, informationRank(edge.information, graph.planar()));
+    loops.push_back({e, thresholds[rank]});
+  }
+  return loops;
+}
+
 /** One run of the algorithm over one graph. */
 class GncRun {
  public:
-  GncRun(const PoseGraph& graph, const GncOptions& options)
+  GncRun(const PoseGraph& graph, const std::vector<bool>& admitted, const GncOptions& options)
       : graph_(graph),
         options_(options),
         guess_(initialGuess(graph)),
         problem_(makePoseProblem(options.solver, graph, guess_)),
-        tls_{chiSquareQuantile(options.inlier_probability, graph.planar() ? 3 : 6)} {
-    for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
-      if (graph.edges()[e].mayBeRejected()) loops_.push_back(e);
-    weights_.assign(loops_.size(), 1.0);
-    inner_ = options.final_solve;
+        graduation_(makeGraduation(options.loss)),
+        loops_(gncLoops(graph, admitted, options.inlier_probability)),
+        inner_(options.final_solve) {
     inner_.max_iterations = options.inner_iterations;
+    for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
+      if (!admitted[e] && graph.edges()[e].mayBeRejected()) problem_->setWeight(e, 0.0);
   }
 
   OptimizationResult run() {
-    if (!loops_.empty()) solveFromGuess();
-    if (maxChi2() > tls_.c2) graduate();
+    // The odometry chain meets all edges but the loops: without those there is nothing to solve.
+    if (!loops_.empty() && !options_.gnc_bias_odom) solveFromGuess();
+    const std::vector<double> residuals = residuals2();
+    const double largest =
+        residuals.empty() ? 0.0 : *std::max_element(residuals.begin(), residuals.end());
+    if (largest > 1.0) {
+      graduation_->start(largest);
+      graduate();
+    }
     settle();
     return result();
   }
 
  private:
-  /** Rounds of growing mu, until no residual is left between sure inliers and sure outliers. */
   void graduate() {
-    double mu = tls_.initialMu(maxChi2());
-    for (int round = 1; round < options_.max_rounds; ++round, mu *= options_.mu_step) {
-      const bool same = weigh([&](double chi2) { return tls_.weight(chi2, mu); });
-      if (same && noneInTransition(mu)) return;
+    stopping_ = "max_rounds reached";
+    for (int round = 1; round < options_.max_rounds; ++round) {
+      const bool same = weigh([&](double residual2) { return graduation_->weight(residual2); });
+      if (same && graduation_->exactFor(residuals2())) {
+        stopping_ = "no loop left in doubt";
+        return;
+      }
       solveFromGuess();
+      graduation_->sharpen(options_.mu_step);
     }
   }
 
   /** Full solves and verdicts at the threshold in turn: neither can raise the truncated cost. */
   void settle() {
-    const auto verdict = [&](double chi2) { return chi2 <= tls_.c2 ? 1.0 : 0.0; };
+    const auto verdict = [](double residual2) { return residual2 <= 1.0 ? 1.0 : 0.0; };
     weigh(verdict);
     for (int round = 0; round < kMostSettlingRounds; ++round) {
       note(problem_->solve(options_.final_solve));
       if (weigh(verdict)) return;
     }
+    stopping_ += ", but the last verdicts still changed";
   }
 
   void solveFromGuess() {
@@ -73,36 +117,37 @@ class GncRun {
   template <class Weight>
   bool weigh(Weight weight_of) {
     bool same = true;
-    for (size_t i = 0; i < loops_.size(); ++i) {
-      const double weight = weight_of(problem_->chi2(loops_[i]));
-      same = same && weight == weights_[i];
-      weights_[i] = weight;
-      problem_->setWeight(loops_[i], weight);
+    for (GncLoop& loop : loops_) {
+      const double weight = weight_of(residual2(loop));
+      same = same && weight == loop.weight;
+      loop.weight = weight;
+      problem_->setWeight(loop.edge, weight);
     }
     return same;
   }
 
-  bool noneInTransition(double mu) const {
-    return std::none_of(loops_.begin(), loops_.end(), [&](EdgeIndex loop) {
-      const double chi2 = problem_->chi2(loop);
-      return chi2 > tls_.inlierLimit(mu) && chi2 < tls_.outlierLimit(mu);
-    });
-  }
+  double residual2(const GncLoop& loop) const { return problem_->chi2(loop.edge) / loop.threshold; }
 
-  double maxChi2() const {
-    double largest = 0;
-    for (const EdgeIndex loop : loops_) largest = std::max(largest, problem_->chi2(loop));
-    return largest;
+  std::vector<double> residuals2() const {
+    std::vector<double> result;
+    for (const GncLoop& loop : loops_) result.push_back(residual2(loop));
+    return result;
   }
 
   OptimizationResult result() const {
     OptimizationResult result;
     result.world_T_base = problem_->poses();
-    for (size_t i = 0; i < loops_.size(); ++i)
-      result.loops.push_back({loops_[i], weights_[i] > 0 ? Verdict::kInlier : Verdict::kOutlier,
-                              weights_[i], problem_->chi2(loops_[i])});
-    result.report = {last_.usable, last_.termination, iterations_,
-                     rounds_,      initial_cost_,     last_.final_cost};
+    auto loop = loops_.begin();
+    for (EdgeIndex e = 0; e < graph_.edges().size(); ++e) {
+      if (!graph_.edges()[e].mayBeRejected()) continue;
+      const bool mine = loop != loops_.end() && loop->edge == e;
+      const double weight = mine ? (loop++)->weight : 0.0;
+      result.loops.push_back(
+          {e, weight > 0 ? Verdict::kInlier : Verdict::kOutlier, weight, problem_->chi2(e)});
+    }
+    result.report = {last_.usable,  "GNC: " + stopping_ + "; last solve: " + last_.termination,
+                     iterations_,   rounds_,
+                     initial_cost_, last_.final_cost};
     return result;
   }
 
@@ -112,10 +157,10 @@ class GncRun {
   const GncOptions& options_;
   const std::vector<Pose3> guess_;
   std::unique_ptr<PoseProblem> problem_;
-  TruncatedLeastSquares tls_;
+  std::unique_ptr<Graduation> graduation_;
+  std::vector<GncLoop> loops_;
   SolverOptions inner_;
-  std::vector<EdgeIndex> loops_;
-  std::vector<double> weights_;  ///< of the loops
+  std::string stopping_ = "all loops agree with the start";
   SolveSummary last_;
   int rounds_ = 0;
   int iterations_ = 0;
@@ -126,19 +171,22 @@ class GncRun {
 
 void GncOptions::visit(OptionVisitor& v) {
   v("solver", solver, "least-squares solver of each round", solverNames());
+  v("loss", loss, "robust cost that the rounds lead to", {kTruncated, kGemanMcClure});
   v("inlier_probability", inlier_probability, "",
     "share of true loop closures whose squared residual is to stay below the threshold",
     {0.0, 1.0 - 1e-12});
-  v("mu_step", mu_step, "", "factor by which the control parameter mu grows from round to round",
+  v("mu_step", mu_step, "", "factor by which the control parameter mu moves from round to round",
     {1.01});
   v("max_rounds", max_rounds, "", "most rounds of graduation", kPositive);
   v("inner_iterations", inner_iterations, "", "most iterations of the solve in each round",
     kPositive);
+  v("gnc_bias_odom", gnc_bias_odom,
+    "weigh the loops first by odometry alone, not by a solution that all loops have distorted");
   final_solve.visit(v);
 }
 
-OptimizationResult Gnc::optimize(const PoseGraph& graph) {
-  return GncRun(graph, options_).run();
+OptimizationResult Gnc::optimize(const PoseGraph& graph, const std::vector<bool>& admitted) {
+  return GncRun(graph, admitted, options_).run();
 }
 
 }  // namespace lamp

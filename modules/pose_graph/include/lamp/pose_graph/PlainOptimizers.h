@@ -5,28 +5,34 @@
 
 namespace lamp {
 
-/** Least squares over odometry, priors and all loop closures that are not rejected.
- *
- * Starts from the current estimates of the nodes. Loops that come in as kOutlier take no part and
- * stay outliers; all others come out as inliers of weight 1. Priors hold the components that they
+struct PlainOptions {
+  std::string start = "estimate";
+  SolverOptions solve;
+
+  void visit(OptionVisitor& v);
+};
+
+/** Least squares over odometry, priors and all admitted loop closures, which come out as inliers of
+ * weight 1. Priors hold the components that they
  * reach; each other component is held at its first key node. A planar graph is solved in x, y, yaw.
  */
 class PlainOptimizer : public Optimizer {
   DEFINE_VIRTUAL_MRPT_OBJECT(PlainOptimizer)
 
  public:
+  using Optimizer::optimize;
   void visit(OptionVisitor& options) override { options_.visit(options); }
   /** \throws std::runtime_error if the estimate of a node is not finite. */
-  OptimizationResult optimize(const PoseGraph& graph) override;
+  OptimizationResult optimize(const PoseGraph& graph, const std::vector<bool>& admitted) override;
 
  protected:
-  explicit PlainOptimizer(const SolverOptions& options) : options_(options) {}
+  explicit PlainOptimizer(const PlainOptions& options) : options_(options) {}
 
  private:
   /** One of solverNames(). */
   virtual std::string solver() const = 0;
 
-  SolverOptions options_;
+  PlainOptions options_;
 };
 
 /** Levenberg-Marquardt with our own sparse block Cholesky factorisation (docs/pose_graph.md). */
@@ -34,7 +40,7 @@ class Lm : public PlainOptimizer {
   DEFINE_MRPT_OBJECT(Lm, lamp)
 
  public:
-  explicit Lm(const SolverOptions& options = {}) : PlainOptimizer(options) {}
+  explicit Lm(const PlainOptions& options = {}) : PlainOptimizer(options) {}
 
  private:
   std::string solver() const override { return "Lm"; }
@@ -46,7 +52,7 @@ class Gn : public PlainOptimizer {
   DEFINE_MRPT_OBJECT(Gn, lamp)
 
  public:
-  explicit Gn(const SolverOptions& options = {}) : PlainOptimizer(options) {}
+  explicit Gn(const PlainOptions& options = {}) : PlainOptimizer(options) {}
 
  private:
   std::string solver() const override { return "Gn"; }
@@ -57,7 +63,7 @@ class CeresLm : public PlainOptimizer {
   DEFINE_MRPT_OBJECT(CeresLm, lamp)
 
  public:
-  explicit CeresLm(const SolverOptions& options = {}) : PlainOptimizer(options) {}
+  explicit CeresLm(const PlainOptions& options = {}) : PlainOptimizer(options) {}
 
  private:
   std::string solver() const override { return "CeresLm"; }
