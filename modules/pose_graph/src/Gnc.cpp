@@ -58,6 +58,7 @@ class GncRun {
         loops_(gncLoops(graph, admitted, options.inlier_probability)),
         inner_(options.final_solve) {
     inner_.max_iterations = options.inner_iterations;
+    inner_.function_tolerance = std::max(inner_.function_tolerance, kInnerTolerance);
     for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
       if (!admitted[e] && graph.edges()[e].mayBeRejected()) problem_->setWeight(e, 0.0);
   }
@@ -152,6 +153,8 @@ class GncRun {
   }
 
   static constexpr int kMostSettlingRounds = 20;
+  /** Weights that change by a factor in each round do not need the last digits. */
+  static constexpr double kInnerTolerance = 1e-3;
 
   const PoseGraph& graph_;
   const GncOptions& options_;

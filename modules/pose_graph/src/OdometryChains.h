@@ -26,6 +26,8 @@ class OdometryChains {
   /** None if neither odometry nor priors relate the two.
    * \param scale factor of all covariances of odometry. */
   std::optional<RelativePose> between(KeyframeId a, KeyframeId b, double scale = 1.0) const;
+  /** Number of the chain that a key node is in. */
+  int chain(KeyframeId id) const { return links_[graph_.place(id)].chain; }
 
  private:
   struct Link {

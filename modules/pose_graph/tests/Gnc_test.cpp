@@ -68,8 +68,57 @@ TEST(Gnc, VerdictsWeightsAndThresholdAgree) {
 TEST(Gnc, WithoutOutliersItIsLm) {
   const World world = makeWorld({});
   const OptimizationResult robust = Gnc().optimize(world.graph), plain = Lm().optimize(world.graph);
-  EXPECT_LE(robust.report.rounds, 3);
+  GncOptions all_loops_first;
+  all_loops_first.gnc_bias_odom = false;
+  EXPECT_LE(Gnc(all_loops_first).optimize(world.graph).report.rounds, 3);
   EXPECT_LT(meanDistance(robust.world_T_base, plain.world_T_base), 1e-4);
+}
+
+TEST(Gnc, EachSolverAndLossFindsTheOutliers) {
+  WorldOptions world_options;
+  world_options.outliers = 30;
+  const World world = makeWorld(world_options);
+  for (const char* solver : {"Lm", "Gn", "CeresLm"})
+    for (const char* loss : {"TruncatedLeastSquares", "GemanMcClure"}) {
+      GncOptions options;
+      options.solver = solver;
+      options.loss = loss;
+      const OptimizationResult result = Gnc(options).optimize(world.graph);
+      ASSERT_TRUE(result.report.usable) << solver << loss << result.report.termination;
+      EXPECT_EQ(score(result, world).precision, 1.0) << solver << loss;
+      EXPECT_GE(score(result, world).recall, 0.98) << solver << loss;
+    }
+}
+
+TEST(Gnc, ThresholdsFollowTheRankOfTheInformation) {
+  WorldOptions world_options;
+  world_options.outliers = 30;
+  World world = makeWorld(world_options);
+  for (Edge& edge : world.graph.edges())
+    if (edge.mayBeRejected()) {
+      edge.information.row(0).setZero();
+      edge.information.col(0).setZero();
+    }
+  const OptimizationResult result = Gnc().optimize(world.graph);
+  ASSERT_TRUE(result.report.usable);
+  EXPECT_GE(score(result, world).precision, 0.98);
+  EXPECT_GE(score(result, world).recall, 0.98);
+  const double c2 = chiSquareQuantile(GncOptions().inlier_probability, 5);
+  for (const LoopVerdict& loop : result.loops)
+    EXPECT_EQ(loop.verdict == Verdict::kInlier, loop.chi2 <= c2);
+}
+
+TEST(Gnc, LoopsThatAreNotAdmittedStayOut) {
+  const World world = makeWorld({});
+  std::vector<bool> admitted(world.graph.edges().size(), true);
+  EdgeIndex loop = 0;
+  while (!world.graph.edges()[loop].mayBeRejected()) ++loop;
+  admitted[loop] = false;
+  const OptimizationResult result = Gnc().optimize(world.graph, admitted);
+  EXPECT_EQ(result.loops[0].edge, loop);
+  EXPECT_EQ(result.loops[0].verdict, Verdict::kOutlier);
+  EXPECT_EQ(result.loops[0].weight, 0.0);
+  EXPECT_EQ(result.loops[1].verdict, Verdict::kInlier);
 }
 
 TEST(Gnc, FormerVerdictsDoNotCount) {

@@ -11,7 +11,7 @@
 #include "lamp/loop_candidates/CandidateGenerator.h"
 #include "lamp/loop_priority/Prioritizer.h"
 #include "lamp/maps/MapExporter.h"
-#include "lamp/pose_graph/Optimizer.h"
+#include "lamp/pose_graph/BackEnd.h"
 #include "lamp/registration/InitialAligner.h"
 #include "lamp/registration/PreparedScanStore.h"
 #include "lamp/registration/Refiner.h"
@@ -27,6 +27,7 @@ struct PipelineOptions {
   std::string initial_aligner = "Odometry";
   std::string refiner = "Gicp";
   std::vector<std::string> verifiers = {"OverlapResidual", "GuessDeviation"};
+  std::vector<std::string> outlier_rejection = {"OdometryGate"};
   std::string optimizer = "Gnc";
   std::vector<std::string> exporters = {"Ply", "Pcd", "OctoMap", "Picture"};
   bool inter_robot_loops = true;
@@ -63,7 +64,7 @@ struct Stages {
   std::shared_ptr<InitialAligner> initial_aligner;
   std::shared_ptr<Refiner> refiner;
   std::vector<std::shared_ptr<Verifier>> verifiers;
-  std::shared_ptr<Optimizer> optimizer;
+  BackEnd back_end;
   std::vector<std::shared_ptr<MapExporter>> exporters;
 };
 
