@@ -64,13 +64,10 @@ class GncRun {
   }
 
   OptimizationResult run() {
-    // The odometry chain meets all edges but the loops: without those there is nothing to solve.
-    if (!loops_.empty() && !options_.gnc_bias_odom) solveFromGuess();
-    const std::vector<double> residuals = residuals2();
-    const double largest =
-        residuals.empty() ? 0.0 : *std::max_element(residuals.begin(), residuals.end());
-    if (largest > 1.0) {
-      graduation_->start(largest);
+    if (!loops_.empty()) solveFromGuess();
+    if (largest(residuals2()) > 1.0) {
+      if (options_.gnc_bias_odom) problem_->setPoses(guess_);
+      graduation_->start(std::max(largest(residuals2()), kLeastStart));
       graduate();
     }
     settle();
@@ -135,6 +132,10 @@ class GncRun {
     return result;
   }
 
+  static double largest(const std::vector<double>& values) {
+    return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+  }
+
   OptimizationResult result() const {
     OptimizationResult result;
     result.world_T_base = problem_->poses();
@@ -153,6 +154,8 @@ class GncRun {
   }
 
   static constexpr int kMostSettlingRounds = 20;
+  /** Odometry alone may agree with all loops where their solution does not. */
+  static constexpr double kLeastStart = 2.0;
   /** Weights that change by a factor in each round do not need the last digits. */
   static constexpr double kInnerTolerance = 1e-3;
 
@@ -163,7 +166,7 @@ class GncRun {
   std::unique_ptr<Graduation> graduation_;
   std::vector<GncLoop> loops_;
   SolverOptions inner_;
-  std::string stopping_ = "all loops agree with the start";
+  std::string stopping_ = "all loops agree";
   SolveSummary last_;
   int rounds_ = 0;
   int iterations_ = 0;
@@ -184,7 +187,8 @@ void GncOptions::visit(OptionVisitor& v) {
   v("inner_iterations", inner_iterations, "", "most iterations of the solve in each round",
     kPositive);
   v("gnc_bias_odom", gnc_bias_odom,
-    "weigh the loops first by odometry alone, not by a solution that all loops have distorted");
+    "if the loops contradict one another, weigh them first by odometry alone, not by the solution "
+    "that all of them have distorted");
   final_solve.visit(v);
 }
 

@@ -9,9 +9,9 @@ struct GncOptions {
   std::string solver = "Lm";
   std::string loss = "TruncatedLeastSquares";
   double inlier_probability = 0.9999;
-  double mu_step = 1.4;
+  double mu_step = 1.6;
   int max_rounds = 100;
-  int inner_iterations = 6;
+  int inner_iterations = 10;
   bool gnc_bias_odom = true;
   SolverOptions final_solve;
 
