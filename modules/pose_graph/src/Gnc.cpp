@@ -4,6 +4,7 @@
 #include <array>
 
 #include "GemanMcClure.h"
+#include "GncMemory.h"
 #include "Information.h"
 #include "PoseProblem.h"
 #include "TruncatedLeastSquares.h"
@@ -15,6 +16,9 @@ IMPLEMENTS_MRPT_OBJECT(Gnc, Optimizer, lamp)
 namespace lamp {
 
 namespace {
+
+/** Share of the inliers that updates may reject before all loops are weighed anew. */
+constexpr double kMostDoubt = 0.1;
 
 const char* const kTruncated = "TruncatedLeastSquares";
 const char* const kGemanMcClure = "GemanMcClure";
@@ -29,6 +33,7 @@ struct GncLoop {
   EdgeIndex edge;
   double threshold;  ///< the largest squared residual of an inlier
   double weight = 1.0;
+  bool graduated = true;  ///< else it keeps its weight until the last stage
 };
 
 std::vector<GncLoop> gncLoops(const PoseGraph& graph, const std::vector<bool>& admitted,
@@ -46,21 +51,33 @@ std::vector<GncLoop> gncLoops(const PoseGraph& graph, const std::vector<bool>& a
   return loops;
 }
 
+/** Loops that were judged before keep their verdict for now. */
+void keepVerdicts(const GncMemory& memory, std::vector<GncLoop>& loops) {
+  for (GncLoop& loop : loops) {
+    loop.graduated = loop.edge >= memory.edges.size();
+    if (!loop.graduated) loop.weight = memory.inlier[loop.edge] ? 1.0 : 0.0;
+  }
+}
+
 /** One run of the algorithm over one graph. */
 class GncRun {
  public:
-  GncRun(const PoseGraph& graph, const std::vector<bool>& admitted, const GncOptions& options)
+  /** \param memory of the graph that this one continues, or null. */
+  GncRun(const PoseGraph& graph, const std::vector<bool>& admitted, const GncOptions& options,
+         const GncMemory* memory)
       : graph_(graph),
         options_(options),
-        guess_(initialGuess(graph)),
+        guess_(memory ? continuedPoses(graph, *memory, initialGuess(graph)) : initialGuess(graph)),
         problem_(makePoseProblem(options.solver, graph, guess_)),
         graduation_(makeGraduation(options.loss)),
         loops_(gncLoops(graph, admitted, options.inlier_probability)),
         inner_(options.final_solve) {
     inner_.max_iterations = options.inner_iterations;
     inner_.function_tolerance = std::max(inner_.function_tolerance, kInnerTolerance);
+    if (memory) keepVerdicts(*memory, loops_);
     for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
       if (!admitted[e] && graph.edges()[e].mayBeRejected()) problem_->setWeight(e, 0.0);
+    for (const GncLoop& loop : loops_) problem_->setWeight(loop.edge, loop.weight);
   }
 
   OptimizationResult run() {
@@ -78,7 +95,8 @@ class GncRun {
   void graduate() {
     stopping_ = "max_rounds reached";
     for (int round = 1; round < options_.max_rounds; ++round) {
-      const bool same = weigh([&](double residual2) { return graduation_->weight(residual2); });
+      const bool same =
+          weigh([&](double residual2) { return graduation_->weight(residual2); }, true);
       if (same && graduation_->exactFor(residuals2())) {
         stopping_ = "no loop left in doubt";
         return;
@@ -91,10 +109,10 @@ class GncRun {
   /** Full solves and verdicts at the threshold in turn: neither can raise the truncated cost. */
   void settle() {
     const auto verdict = [](double residual2) { return residual2 <= 1.0 ? 1.0 : 0.0; };
-    weigh(verdict);
+    weigh(verdict, false);
     for (int round = 0; round < kMostSettlingRounds; ++round) {
       note(problem_->solve(options_.final_solve));
-      if (weigh(verdict)) return;
+      if (weigh(verdict, false)) return;
     }
     stopping_ += ", but the last verdicts still changed";
   }
@@ -111,11 +129,13 @@ class GncRun {
     ++rounds_;
   }
 
-  /** Weighs the loops by their residuals. \return true if no weight changed. */
+  /** Weighs all loops, or the graduated ones, by their residuals. \return true if no weight
+   * changed. */
   template <class Weight>
-  bool weigh(Weight weight_of) {
+  bool weigh(Weight weight_of, bool graduated_only) {
     bool same = true;
     for (GncLoop& loop : loops_) {
+      if (graduated_only && !loop.graduated) continue;
       const double weight = weight_of(residual2(loop));
       same = same && weight == loop.weight;
       loop.weight = weight;
@@ -126,9 +146,11 @@ class GncRun {
 
   double residual2(const GncLoop& loop) const { return problem_->chi2(loop.edge) / loop.threshold; }
 
+  /** Of the graduated loops. */
   std::vector<double> residuals2() const {
     std::vector<double> result;
-    for (const GncLoop& loop : loops_) result.push_back(residual2(loop));
+    for (const GncLoop& loop : loops_)
+      if (loop.graduated) result.push_back(residual2(loop));
     return result;
   }
 
@@ -189,11 +211,34 @@ void GncOptions::visit(OptionVisitor& v) {
   v("gnc_bias_odom", gnc_bias_odom,
     "if the loops contradict one another, weigh them first by odometry alone, not by the solution "
     "that all of them have distorted");
+  v("incremental", incremental,
+    "start a graph that has grown from the last solution and verdicts, and graduate new loops "
+    "only");
   final_solve.visit(v);
 }
 
 OptimizationResult Gnc::optimize(const PoseGraph& graph, const std::vector<bool>& admitted) {
-  return GncRun(graph, admitted, options_).run();
+  const bool update = options_.incremental && !memory_.nodes.empty() && continues(graph, memory_);
+  OptimizationResult result = GncRun(graph, admitted, options_, update ? &memory_ : nullptr).run();
+  size_t doubtful = 0;
+  if (update) {
+    size_t inliers = 0;
+    doubtful = memory_.doubtful_loops;
+    for (const LoopVerdict& loop : result.loops) {
+      const bool inlier = loop.verdict == Verdict::kInlier;
+      inliers += inlier;
+      doubtful += !inlier && admitted[loop.edge] && loop.edge >= memory_.edges.size();
+    }
+    if (static_cast<double>(doubtful) > kMostDoubt * static_cast<double>(inliers)) {
+      result = GncRun(graph, admitted, options_, nullptr).run();
+      doubtful = 0;
+    }
+  }
+  if (result.report.usable && options_.incremental) {
+    memory_ = remember(graph, result);
+    memory_.doubtful_loops = doubtful;
+  }
+  return result;
 }
 
 }  // namespace lamp

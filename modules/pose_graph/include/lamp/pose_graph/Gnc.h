@@ -13,9 +13,19 @@ struct GncOptions {
   int max_rounds = 100;
   int inner_iterations = 10;
   bool gnc_bias_odom = true;
+  bool incremental = true;
   SolverOptions final_solve;
 
   void visit(OptionVisitor& v);
+};
+
+/** The last solution of a Gnc. */
+struct GncMemory {
+  std::vector<KeyframeId> nodes;
+  std::vector<Edge> edges;
+  std::vector<bool> inlier;   ///< of each edge
+  std::vector<Pose3> poses;   ///< of each node
+  size_t doubtful_loops = 0;  ///< rejected since all loops were weighed together
 };
 
 /** Graduated non-convexity over the loop closures; odometry and priors are known inliers.
@@ -28,7 +38,12 @@ struct GncOptions {
  * degrees of freedom as its information matrix has rank.
  *
  * A round ends the graduation only if no weight has changed in it and the cost is the robust one
- * for all residuals; not because the cost stays, nor because all weights are 0 or 1. */
+ * for all residuals; not because the cost stays, nor because all weights are 0 or 1.
+ *
+ * A graph that has grown since the last call is updated: only the new loops are graduated, from the
+ * last poses, among loops that keep their weights; the last stage then judges all loops, so that
+ * old ones come back, or go, where the new ones say so. When such updates have rejected a tenth as
+ * many loops as there are inliers, all loops are graduated anew. */
 class Gnc : public Optimizer {
   DEFINE_MRPT_OBJECT(Gnc, lamp)
 
@@ -43,6 +58,7 @@ class Gnc : public Optimizer {
 
  private:
   GncOptions options_;
+  GncMemory memory_;
 };
 
 }  // namespace lamp
