@@ -39,8 +39,9 @@ TEST(CommandLine, VersionIsOneLine) {
 TEST(CommandLine, ListModulesNamesTheStages) {
   const LampResult end = runLamp({"--list-modules"});
   EXPECT_EQ(end.exit_code, 0);
-  for (const char* stage : {"RecordedOdometry", "FixedRadius", "AdaptiveRadius", "Arrival", "Gicp",
-                            "OverlapResidual", "Gnc", "Lm", "OctoMap", "Picture"})
+  for (const char* stage :
+       {"RecordedOdometry", "FixedRadius", "AdaptiveRadius", "Arrival", "Gicp", "OverlapResidual",
+        "OdometryGate", "Icm", "Gnc", "Lm", "Gn", "CeresLm", "OctoMap", "Picture"})
     EXPECT_THAT(end.out, HasSubstr(std::string("  ") + stage + "\n"));
 }
 
@@ -105,7 +106,7 @@ start_pose = [1 2 3]
                                     "'key_node_distance_m'?)"),
                     HasSubstr(ini + ":3: [frontend] max_range_m = 12x: is no number"),
                     HasSubstr(ini + ":8: [pipeline] optimizer: there is no optimizer 'Gnnc' (did "
-                                    "you mean 'Gnc'?); known: Gnc, Lm"),
+                                    "you mean 'Gnc'?); known: CeresLm, Gn, Gnc, Lm"),
                     HasSubstr(ini + ":9: [pipeline] inter_robot_loops = maybe: must be true or"),
                     HasSubstr(ini + ":10: there is no section [frontent]"),
                     HasSubstr(ini + ":12: [base_station] max_attempts = 0: must be at least 1"),

@@ -216,7 +216,7 @@ void BaseStation::optimize() {
   std::vector<Verdict> before;
   for (const Edge& edge : graph_.edges()) before.push_back(edge.verdict);
 
-  const OptimizationResult result = stages_.optimizer->optimize(graph_);
+  const OptimizationResult result = stages_.back_end.optimize(graph_);
   report_ = result.report;
   ++optimization_count_;
   optimized_loops_ = loops_;

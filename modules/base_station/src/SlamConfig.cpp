@@ -44,6 +44,7 @@ std::vector<StageKind> stageKinds() {
           {"initial_aligner", "initial aligner", CLASS_ID(InitialAligner)},
           {"refiner", "refiner", CLASS_ID(Refiner)},
           {"verifiers", "verifier", CLASS_ID(Verifier)},
+          {"outlier_rejection", "outlier rejection", CLASS_ID(OutlierRejection)},
           {"optimizer", "optimizer", CLASS_ID(Optimizer)},
           {"exporters", "map exporter", CLASS_ID(MapExporter)}};
 }
@@ -121,6 +122,8 @@ void PipelineOptions::visit(OptionVisitor& v) {
     "first stage of the loop closure computation; each is tried if those before it found no loop");
   v("refiner", refiner, "second stage of the loop closure computation");
   v("verifiers", verifiers, "all of these must accept a loop closure");
+  v("outlier_rejection", outlier_rejection,
+    "what sorts out loop closures before the optimizer, one after the other");
   v("optimizer", optimizer, "back end");
   v("exporters", exporters, "kinds of map to write");
   v("inter_robot_loops", inter_robot_loops, "search loop closures between robots");
@@ -230,7 +233,10 @@ void SlamConfig::makeStages(Faults& faults) {
           .some(pipeline.initial_aligner);
   stages.refiner = Maker<Refiner>(ini_, "refiner", "refiner", faults).one(pipeline.refiner);
   stages.verifiers = Maker<Verifier>(ini_, "verifiers", "verifier", faults).all(pipeline.verifiers);
-  stages.optimizer =
+  stages.back_end.rejections =
+      Maker<OutlierRejection>(ini_, "outlier_rejection", "outlier rejection", faults)
+          .all(pipeline.outlier_rejection);
+  stages.back_end.optimizer =
       Maker<Optimizer>(ini_, "optimizer", "optimizer", faults).one(pipeline.optimizer);
   stages.exporters =
       Maker<MapExporter>(ini_, "exporters", "map exporter", faults).all(pipeline.exporters);
@@ -251,7 +257,8 @@ void SlamConfig::checkSections(Faults& faults) const {
     }
     const StageName stage = StageName::parse(name.substr(kStagePrefix.size()));
     std::vector<std::string> used = pipeline.candidates;
-    for (const auto* list : {&pipeline.initial_aligner, &pipeline.verifiers, &pipeline.exporters})
+    for (const auto* list : {&pipeline.initial_aligner, &pipeline.verifiers,
+                             &pipeline.outlier_rejection, &pipeline.exporters})
       used.insert(used.end(), list->begin(), list->end());
     for (const auto* one :
          {&pipeline.odometry, &pipeline.priority, &pipeline.refiner, &pipeline.optimizer})
@@ -291,7 +298,8 @@ std::string SlamConfig::text() const {
   for (const auto& stage : stages.initial_aligners) add(stage->getLoggerName(), *stage);
   add(pipeline.refiner, *stages.refiner);
   for (const auto& stage : stages.verifiers) add(stage->getLoggerName(), *stage);
-  add(pipeline.optimizer, *stages.optimizer);
+  for (const auto& stage : stages.back_end.rejections) add(stage->getLoggerName(), *stage);
+  add(pipeline.optimizer, *stages.back_end.optimizer);
   for (const auto& stage : stages.exporters) add(stage->getLoggerName(), *stage);
   return text;
 }

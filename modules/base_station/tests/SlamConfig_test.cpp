@@ -58,7 +58,7 @@ TEST(SlamConfig, ReportsAllFaultsOfAFileAtOnceWithTheirLines) {
   const std::string path = iniFile(
       "[pipeline]\n"
       "verifiers = OverlapResidual, Nonsense\n"  // 2
-      "optimizer = Gcn\n"                        // 3
+      "optimizer = Gncc\n"                       // 3
       "priority =\n"                             // 4
       "[frontend]\n"                             //
       "key_node_distanc_m = 2\n"                 // 6
@@ -85,7 +85,7 @@ TEST(SlamConfig, ReportsAllFaultsOfAFileAtOnceWithTheirLines) {
         HasSubstr(path + ":2: [pipeline] verifiers: there is no verifier "
                          "'Nonsense'; known: BothDirections, "
                          "FreeSpaceConsistency, GuessDeviation, OverlapResidual, PclFitness"));
-    EXPECT_THAT(faults, HasSubstr(path + ":3: [pipeline] optimizer: there is no optimizer 'Gcn' "
+    EXPECT_THAT(faults, HasSubstr(path + ":3: [pipeline] optimizer: there is no optimizer 'Gncc' "
                                          "(did you mean 'Gnc'?)"));
     EXPECT_THAT(faults, HasSubstr(path + ":4: [pipeline] priority: needs a name"));
     EXPECT_THAT(faults, HasSubstr(path + ":6: [frontend] has no key 'key_node_distanc_m' (did you "

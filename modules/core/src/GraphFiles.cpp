@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <vector>
+#include <numeric>
 
 #include "lamp/core/Csv.h"
 
@@ -91,20 +91,28 @@ constexpr TextFormat kQuaternion{"VERTEX_SE3:QUAT", "EDGE_SE3:QUAT", quaternionV
                                  quaternionInformation};
 constexpr TextFormat kRollPitchYaw{"VERTEX3", "EDGE3", rollPitchYawValues, rollPitchYawInformation};
 
-std::string nodeLines(const PoseGraph& graph, const TextFormat& format) {
+using Ids = std::vector<uint64_t>;
+
+Ids denseIds(const PoseGraph& graph) {
+  Ids ids(graph.nodes().size());
+  std::iota(ids.begin(), ids.end(), uint64_t{0});
+  return ids;
+}
+
+std::string nodeLines(const PoseGraph& graph, const TextFormat& format, const Ids& ids) {
   std::string text;
   for (size_t i = 0; i < graph.nodes().size(); ++i)
-    text += std::string(format.vertex) + " " + std::to_string(i) +
+    text += std::string(format.vertex) + " " + std::to_string(ids[i]) +
             joined(format.pose(graph.nodes()[i].world_T_base)) + "\n";
   return text;
 }
 
-std::string edgeLines(const PoseGraph& graph, const TextFormat& format) {
+std::string edgeLines(const PoseGraph& graph, const TextFormat& format, const Ids& ids) {
   std::string text;
   for (const Edge& edge : graph.edges()) {
     if (edge.type == EdgeType::kPrior || !edge.active()) continue;
-    text += std::string(format.edge) + " " + std::to_string(graph.place(edge.from)) + " " +
-            std::to_string(graph.place(edge.to)) + joined(format.pose(edge.from_T_to)) +
+    text += std::string(format.edge) + " " + std::to_string(ids[graph.place(edge.from)]) + " " +
+            std::to_string(ids[graph.place(edge.to)]) + joined(format.pose(edge.from_T_to)) +
             joined(upperTriangle(format.information(edge))) + "\n";
   }
   return text;
@@ -135,16 +143,21 @@ Matrix6d covarianceToMrpt(const Pose3& pose, const Matrix6d& tangent) {
 }
 
 std::string toG2o(const PoseGraph& graph) {
+  return toG2o(graph, denseIds(graph));
+}
+
+std::string toG2o(const PoseGraph& graph, const std::vector<uint64_t>& ids) {
   const TextFormat& format = graph.planar() ? kPlanar : kQuaternion;
   std::string fixed;
   for (const Component& component : graph.components())
-    fixed += "FIX " + std::to_string(graph.place(component.nodes.front())) + "\n";
-  return nodeLines(graph, format) + fixed + edgeLines(graph, format);
+    fixed += "FIX " + std::to_string(ids[graph.place(component.nodes.front())]) + "\n";
+  return nodeLines(graph, format, ids) + fixed + edgeLines(graph, format, ids);
 }
 
 std::string toMrptGraph(const PoseGraph& graph) {
   const TextFormat& format = graph.planar() ? kPlanar : kRollPitchYaw;
-  return nodeLines(graph, format) + edgeLines(graph, format);
+  const Ids ids = denseIds(graph);
+  return nodeLines(graph, format, ids) + edgeLines(graph, format, ids);
 }
 
 std::string toGraphIdsCsv(const PoseGraph& graph, const RobotTable& robots) {

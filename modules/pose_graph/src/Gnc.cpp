@@ -1,7 +1,11 @@
 #include "lamp/pose_graph/Gnc.h"
 
 #include <algorithm>
+#include <array>
 
+#include "GemanMcClure.h"
+#include "GncMemory.h"
+#include "Information.h"
 #include "PoseProblem.h"
 #include "TruncatedLeastSquares.h"
 #include "lamp/core/ChiSquare.h"
@@ -13,48 +17,104 @@ namespace lamp {
 
 namespace {
 
+/** Share of the inliers that updates may reject before all loops are weighed anew. */
+constexpr double kMostDoubt = 0.1;
+
+const char* const kTruncated = "TruncatedLeastSquares";
+const char* const kGemanMcClure = "GemanMcClure";
+
+std::unique_ptr<Graduation> makeGraduation(const std::string& loss) {
+  if (loss == kGemanMcClure) return std::make_unique<GemanMcClure>();
+  return std::make_unique<TruncatedLeastSquares>();
+}
+
+/** A loop closure that may be rejected. */
+struct GncLoop {
+  EdgeIndex edge;
+  double threshold;  ///< the largest squared residual of an inlier
+  double weight = 1.0;
+  bool graduated = true;  ///< else it keeps its weight until the last stage
+};
+
+std::vector<GncLoop> gncLoops(const PoseGraph& graph, const std::vector<bool>& admitted,
+                              double inlier_probability) {
+  std::array<double, 7> thresholds{};
+  for (int rank = 1; rank <= 6; ++rank)
+    thresholds[rank] = chiSquareQuantile(inlier_probability, rank);
+  std::vector<GncLoop> loops;
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
+    const Edge& edge = graph.edges()[e];
+    if (!edge.mayBeRejected() || !admitted[e]) continue;
+    const int rank = std::max(1, informationRank(edge.information, graph.planar()));
+    loops.push_back({e, thresholds[rank]});
+  }
+  return loops;
+}
+
+/** Loops that were judged before keep their verdict for now. */
+void keepVerdicts(const GncMemory& memory, std::vector<GncLoop>& loops) {
+  for (GncLoop& loop : loops) {
+    loop.graduated = loop.edge >= memory.edges.size();
+    if (!loop.graduated) loop.weight = memory.inlier[loop.edge] ? 1.0 : 0.0;
+  }
+}
+
 /** One run of the algorithm over one graph. */
 class GncRun {
  public:
-  GncRun(const PoseGraph& graph, const GncOptions& options)
+  /** \param memory of the graph that this one continues, or null. */
+  GncRun(const PoseGraph& graph, const std::vector<bool>& admitted, const GncOptions& options,
+         const GncMemory* memory)
       : graph_(graph),
         options_(options),
-        guess_(initialGuess(graph)),
-        problem_(makePoseProblem(graph, guess_)),
-        tls_{chiSquareQuantile(options.inlier_probability, problem_->degreesOfFreedom())} {
-    for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
-      if (graph.edges()[e].mayBeRejected()) loops_.push_back(e);
-    weights_.assign(loops_.size(), 1.0);
-    inner_ = options.final_solve;
+        guess_(memory ? continuedPoses(graph, *memory, initialGuess(graph)) : initialGuess(graph)),
+        problem_(makePoseProblem(options.solver, graph, guess_)),
+        graduation_(makeGraduation(options.loss)),
+        loops_(gncLoops(graph, admitted, options.inlier_probability)),
+        inner_(options.final_solve) {
     inner_.max_iterations = options.inner_iterations;
+    inner_.function_tolerance = std::max(inner_.function_tolerance, kInnerTolerance);
+    if (memory) keepVerdicts(*memory, loops_);
+    for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
+      if (!admitted[e] && graph.edges()[e].mayBeRejected()) problem_->setWeight(e, 0.0);
+    for (const GncLoop& loop : loops_) problem_->setWeight(loop.edge, loop.weight);
   }
 
   OptimizationResult run() {
     if (!loops_.empty()) solveFromGuess();
-    if (maxChi2() > tls_.c2) graduate();
+    if (largest(residuals2()) > 1.0) {
+      if (options_.gnc_bias_odom) problem_->setPoses(guess_);
+      graduation_->start(std::max(largest(residuals2()), kLeastStart));
+      graduate();
+    }
     settle();
     return result();
   }
 
  private:
-  /** Rounds of growing mu, until no residual is left between sure inliers and sure outliers. */
   void graduate() {
-    double mu = tls_.initialMu(maxChi2());
-    for (int round = 1; round < options_.max_rounds; ++round, mu *= options_.mu_step) {
-      const bool same = weigh([&](double chi2) { return tls_.weight(chi2, mu); });
-      if (same && noneInTransition(mu)) return;
+    stopping_ = "max_rounds reached";
+    for (int round = 1; round < options_.max_rounds; ++round) {
+      const bool same =
+          weigh([&](double residual2) { return graduation_->weight(residual2); }, true);
+      if (same && graduation_->exactFor(residuals2())) {
+        stopping_ = "no loop left in doubt";
+        return;
+      }
       solveFromGuess();
+      graduation_->sharpen(options_.mu_step);
     }
   }
 
   /** Full solves and verdicts at the threshold in turn: neither can raise the truncated cost. */
   void settle() {
-    const auto verdict = [&](double chi2) { return chi2 <= tls_.c2 ? 1.0 : 0.0; };
-    weigh(verdict);
+    const auto verdict = [](double residual2) { return residual2 <= 1.0 ? 1.0 : 0.0; };
+    weigh(verdict, false);
     for (int round = 0; round < kMostSettlingRounds; ++round) {
       note(problem_->solve(options_.final_solve));
-      if (weigh(verdict)) return;
+      if (weigh(verdict, false)) return;
     }
+    stopping_ += ", but the last verdicts still changed";
   }
 
   void solveFromGuess() {
@@ -69,53 +129,66 @@ class GncRun {
     ++rounds_;
   }
 
-  /** Weighs the loops by their residuals. \return true if no weight changed. */
+  /** Weighs all loops, or the graduated ones, by their residuals. \return true if no weight
+   * changed. */
   template <class Weight>
-  bool weigh(Weight weight_of) {
+  bool weigh(Weight weight_of, bool graduated_only) {
     bool same = true;
-    for (size_t i = 0; i < loops_.size(); ++i) {
-      const double weight = weight_of(problem_->chi2(loops_[i]));
-      same = same && weight == weights_[i];
-      weights_[i] = weight;
-      problem_->setWeight(loops_[i], weight);
+    for (GncLoop& loop : loops_) {
+      if (graduated_only && !loop.graduated) continue;
+      const double weight = weight_of(residual2(loop));
+      same = same && weight == loop.weight;
+      loop.weight = weight;
+      problem_->setWeight(loop.edge, weight);
     }
     return same;
   }
 
-  bool noneInTransition(double mu) const {
-    return std::none_of(loops_.begin(), loops_.end(), [&](EdgeIndex loop) {
-      const double chi2 = problem_->chi2(loop);
-      return chi2 > tls_.inlierLimit(mu) && chi2 < tls_.outlierLimit(mu);
-    });
+  double residual2(const GncLoop& loop) const { return problem_->chi2(loop.edge) / loop.threshold; }
+
+  /** Of the graduated loops. */
+  std::vector<double> residuals2() const {
+    std::vector<double> result;
+    for (const GncLoop& loop : loops_)
+      if (loop.graduated) result.push_back(residual2(loop));
+    return result;
   }
 
-  double maxChi2() const {
-    double largest = 0;
-    for (const EdgeIndex loop : loops_) largest = std::max(largest, problem_->chi2(loop));
-    return largest;
+  static double largest(const std::vector<double>& values) {
+    return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
   }
 
   OptimizationResult result() const {
     OptimizationResult result;
     result.world_T_base = problem_->poses();
-    for (size_t i = 0; i < loops_.size(); ++i)
-      result.loops.push_back({loops_[i], weights_[i] > 0 ? Verdict::kInlier : Verdict::kOutlier,
-                              weights_[i], problem_->chi2(loops_[i])});
-    result.report = {last_.usable, last_.termination, iterations_,
-                     rounds_,      initial_cost_,     last_.final_cost};
+    auto loop = loops_.begin();
+    for (EdgeIndex e = 0; e < graph_.edges().size(); ++e) {
+      if (!graph_.edges()[e].mayBeRejected()) continue;
+      const bool mine = loop != loops_.end() && loop->edge == e;
+      const double weight = mine ? (loop++)->weight : 0.0;
+      result.loops.push_back(
+          {e, weight > 0 ? Verdict::kInlier : Verdict::kOutlier, weight, problem_->chi2(e)});
+    }
+    result.report = {last_.usable,  "GNC: " + stopping_ + "; last solve: " + last_.termination,
+                     iterations_,   rounds_,
+                     initial_cost_, last_.final_cost};
     return result;
   }
 
   static constexpr int kMostSettlingRounds = 20;
+  /** Odometry alone may agree with all loops where their solution does not. */
+  static constexpr double kLeastStart = 2.0;
+  /** Weights that change by a factor in each round do not need the last digits. */
+  static constexpr double kInnerTolerance = 1e-3;
 
   const PoseGraph& graph_;
   const GncOptions& options_;
   const std::vector<Pose3> guess_;
   std::unique_ptr<PoseProblem> problem_;
-  TruncatedLeastSquares tls_;
-  LmOptions inner_;
-  std::vector<EdgeIndex> loops_;
-  std::vector<double> weights_;  ///< of the loops
+  std::unique_ptr<Graduation> graduation_;
+  std::vector<GncLoop> loops_;
+  SolverOptions inner_;
+  std::string stopping_ = "all loops agree";
   SolveSummary last_;
   int rounds_ = 0;
   int iterations_ = 0;
@@ -125,19 +198,47 @@ class GncRun {
 }  // namespace
 
 void GncOptions::visit(OptionVisitor& v) {
+  v("solver", solver, "least-squares solver of each round", solverNames());
+  v("loss", loss, "robust cost that the rounds lead to", {kTruncated, kGemanMcClure});
   v("inlier_probability", inlier_probability, "",
     "share of true loop closures whose squared residual is to stay below the threshold",
     {0.0, 1.0 - 1e-12});
-  v("mu_step", mu_step, "", "factor by which the control parameter mu grows from round to round",
+  v("mu_step", mu_step, "", "factor by which the control parameter mu moves from round to round",
     {1.01});
   v("max_rounds", max_rounds, "", "most rounds of graduation", kPositive);
   v("inner_iterations", inner_iterations, "", "most iterations of the solve in each round",
     kPositive);
+  v("gnc_bias_odom", gnc_bias_odom,
+    "if the loops contradict one another, weigh them first by odometry alone, not by the solution "
+    "that all of them have distorted");
+  v("incremental", incremental,
+    "start a graph that has grown from the last solution and verdicts, and graduate new loops "
+    "only");
   final_solve.visit(v);
 }
 
-OptimizationResult Gnc::optimize(const PoseGraph& graph) {
-  return GncRun(graph, options_).run();
+OptimizationResult Gnc::optimize(const PoseGraph& graph, const std::vector<bool>& admitted) {
+  const bool update = options_.incremental && !memory_.nodes.empty() && continues(graph, memory_);
+  OptimizationResult result = GncRun(graph, admitted, options_, update ? &memory_ : nullptr).run();
+  size_t doubtful = 0;
+  if (update) {
+    size_t inliers = 0;
+    doubtful = memory_.doubtful_loops;
+    for (const LoopVerdict& loop : result.loops) {
+      const bool inlier = loop.verdict == Verdict::kInlier;
+      inliers += inlier;
+      doubtful += !inlier && admitted[loop.edge] && loop.edge >= memory_.edges.size();
+    }
+    if (static_cast<double>(doubtful) > kMostDoubt * static_cast<double>(inliers)) {
+      result = GncRun(graph, admitted, options_, nullptr).run();
+      doubtful = 0;
+    }
+  }
+  if (result.report.usable && options_.incremental) {
+    memory_ = remember(graph, result);
+    memory_.doubtful_loops = doubtful;
+  }
+  return result;
 }
 
 }  // namespace lamp

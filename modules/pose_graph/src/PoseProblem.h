@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lamp/core/PoseGraph.h"
-#include "lamp/pose_graph/Lm.h"
+#include "lamp/pose_graph/SolverOptions.h"
 
 namespace lamp {
 
@@ -24,8 +24,6 @@ class PoseProblem {
  public:
   virtual ~PoseProblem() = default;
 
-  /** Degrees of freedom of an edge's residual: 6, or 3 for a planar graph. */
-  virtual int degreesOfFreedom() const = 0;
   /** Where the next solve starts. \param world_T_base in the order of PoseGraph::nodes().
    * \throws std::runtime_error naming a node whose pose is not finite. */
   virtual void setPoses(const std::vector<Pose3>& world_T_base) = 0;
@@ -35,12 +33,12 @@ class PoseProblem {
   /** Squared Mahalanobis residual at poses(), without the weight. */
   virtual double chi2(EdgeIndex edge) const = 0;
   /** Moves poses() to a minimum; leaves them alone if the summary is not usable. */
-  virtual SolveSummary solve(const LmOptions& options) = 0;
+  virtual SolveSummary solve(const SolverOptions& options) = 0;
 };
 
-/** The problem of a graph that outlives it unchanged. All edges have weight 1 at first.
- * \throws std::runtime_error as setPoses(). */
-std::unique_ptr<PoseProblem> makePoseProblem(const PoseGraph& graph,
+/** The problem of a graph that outlives it unchanged, for a solver of solverNames(). All edges have
+ * weight 1 at first. \throws std::runtime_error as setPoses(). */
+std::unique_ptr<PoseProblem> makePoseProblem(const std::string& solver, const PoseGraph& graph,
                                              const std::vector<Pose3>& world_T_base);
 
 }  // namespace lamp

@@ -47,30 +47,44 @@ Se3::Tangent Se3::priorError(const Pose& measured, const Pose& pose, Jacobian* d
 namespace {
 
 double wrapped(double angle) {
-  return std::remainder(angle, 2.0 * M_PI);
-}
-
-Eigen::Matrix2d rotation(double yaw) {
-  return Eigen::Rotation2Dd(yaw).toRotationMatrix();
+  return angle - 2.0 * M_PI * std::nearbyint(angle / (2.0 * M_PI));
 }
 
 /** `a⁻¹ · b`, yaw wrapped. */
-Eigen::Vector3d between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  Eigen::Vector3d a_T_b;
-  a_T_b << rotation(a.z()).transpose() * (b - a).head<2>(), wrapped(b.z() - a.z());
-  return a_T_b;
+Pose2 between(const Pose2& a, const Pose2& b) {
+  const double dx = b.position.x() - a.position.x(), dy = b.position.y() - a.position.y();
+  return {a.cosine * dx + a.sine * dy, a.cosine * dy - a.sine * dx, wrapped(b.yaw - a.yaw),
+          a.cosine * b.cosine + a.sine * b.sine, a.cosine * b.sine - a.sine * b.cosine};
 }
 
-Eigen::Matrix3d rotationBlock(double yaw) {
+Eigen::Vector3d coordinates(const Pose2& p) {
+  return {p.position.x(), p.position.y(), p.yaw};
+}
+
+Eigen::Matrix3d rotationBlock(const Pose2& p) {
   Eigen::Matrix3d block = Eigen::Matrix3d::Identity();
-  block.topLeftCorner<2, 2>() = rotation(yaw);
+  block.topLeftCorner<2, 2>() = p.rotation();
   return block;
 }
 
 }  // namespace
 
+Pose2::Pose2(double x, double y, double yaw_rad)
+    : Pose2(x, y, yaw_rad, std::cos(yaw_rad), std::sin(yaw_rad)) {}
+
+Eigen::Matrix2d Pose2::rotation() const {
+  Eigen::Matrix2d R;
+  R << cosine, -sine, sine, cosine;
+  return R;
+}
+
 Se2::Pose Se2::fromPose3(const Pose3& T) {
   return {T.translation().x(), T.translation().y(), yawOf(T)};
+}
+
+void Se2::store(const Pose& p, double* block) {
+  Eigen::Map<Eigen::Vector3d> stored(block);
+  stored = coordinates(p);
 }
 
 Se2::Jacobian Se2::information(const Matrix6d& m) {
@@ -82,31 +96,33 @@ Se2::Jacobian Se2::information(const Matrix6d& m) {
 }
 
 Se2::Pose Se2::plus(const Pose& p, const Tangent& d) {
-  return p + rotationBlock(p.z()) * d;
+  const Eigen::Vector2d moved = p.position + p.rotation() * d.head<2>();
+  return {moved.x(), moved.y(), p.yaw + d.z()};
 }
 
 Se2::Tangent Se2::minus(const Pose& to, const Pose& from) {
-  return between(from, to);
+  return coordinates(between(from, to));
 }
 
 Se2::Tangent Se2::relativeError(const Pose& from_T_to, const Pose& from, const Pose& to,
                                 Jacobian* d_from, Jacobian* d_to) {
   const Pose estimated = between(from, to);
-  const Tangent error = between(from_T_to, estimated);
-  if (d_to) *d_to = rotationBlock(error.z());
+  const Pose error = between(from_T_to, estimated);
+  if (d_to) *d_to = rotationBlock(error);
   if (d_from) {
-    Jacobian d_estimated = -Jacobian::Identity();
-    d_estimated(0, 2) = estimated.y();
-    d_estimated(1, 2) = -estimated.x();
-    *d_from = rotationBlock(from_T_to.z()).transpose() * d_estimated;
+    const double c = from_T_to.cosine, s = from_T_to.sine;
+    const double x = estimated.position.x(), y = estimated.position.y();
+    *d_from << -c, -s, c * y - s * x,  //
+        s, -c, -s * y - c * x,         //
+        0, 0, -1;
   }
-  return error;
+  return coordinates(error);
 }
 
 Se2::Tangent Se2::priorError(const Pose& measured, const Pose& pose, Jacobian* d_pose) {
-  const Tangent error = between(measured, pose);
-  if (d_pose) *d_pose = rotationBlock(error.z());
-  return error;
+  const Pose error = between(measured, pose);
+  if (d_pose) *d_pose = rotationBlock(error);
+  return coordinates(error);
 }
 
 }  // namespace lamp

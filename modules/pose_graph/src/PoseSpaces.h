@@ -33,6 +33,19 @@ struct Se3 {
   static Tangent priorError(const Pose& measured, const Pose& pose, Jacobian* d_pose);
 };
 
+/** A pose in the plane. Sine and cosine of the yaw are kept: they cost more than all the rest. */
+struct Pose2 {
+  Pose2() = default;
+  Pose2(double x, double y, double yaw_rad);
+  Pose2(double x, double y, double yaw_rad, double cos_yaw, double sin_yaw)
+      : position(x, y), yaw(yaw_rad), cosine(cos_yaw), sine(sin_yaw) {}
+
+  Eigen::Matrix2d rotation() const;
+
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double yaw = 0, cosine = 1, sine = 0;
+};
+
 /** Poses in the plane: parameter blocks [x y yaw], perturbed by [x y] in the robot's frame and yaw.
  *
  * Errors are translation and wrapped yaw of `from_T_to⁻¹ · from⁻¹ · to`: to first order what
@@ -40,17 +53,14 @@ struct Se3 {
 struct Se2 {
   static constexpr int kDof = 3;
   static constexpr int kSize = 3;
-  using Pose = Eigen::Vector3d;
+  using Pose = Pose2;
   using Tangent = Eigen::Vector3d;
   using Jacobian = Eigen::Matrix3d;
 
   static Pose fromPose3(const Pose3& T);
-  static Pose3 toPose3(const Pose& p) { return planarPose(p.x(), p.y(), p.z()); }
-  static Pose load(const double* block) { return Eigen::Map<const Pose>(block); }
-  static void store(const Pose& p, double* block) {
-    Eigen::Map<Pose> stored(block);
-    stored = p;
-  }
+  static Pose3 toPose3(const Pose& p) { return planarPose(p.position.x(), p.position.y(), p.yaw); }
+  static Pose load(const double* block) { return {block[0], block[1], block[2]}; }
+  static void store(const Pose& p, double* block);
   static Jacobian information(const Matrix6d& m);
 
   static Pose plus(const Pose& p, const Tangent& d);

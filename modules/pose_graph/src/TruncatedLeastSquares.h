@@ -1,21 +1,26 @@
 #pragma once
 
+#include "Graduation.h"
+
 namespace lamp {
 
-/** The surrogate of the truncated least-squares cost in Yang et al., RA-L 2020, with c² the largest
- * squared residual of an inlier. Convex for mu near 0, exact for mu to infinity. */
-struct TruncatedLeastSquares {
-  double c2;
-
-  /** Where to start so that the surrogate is convex over all residuals (their remark 5). To be
-   * asked only if max_chi2 > c2. */
-  double initialMu(double max_chi2) const { return c2 / (2.0 * max_chi2 - c2); }
-  /** Residuals up to here have weight 1. */
-  double inlierLimit(double mu) const { return mu / (mu + 1.0) * c2; }
-  /** Residuals from here on have weight 0. */
-  double outlierLimit(double mu) const { return (mu + 1.0) / mu * c2; }
+/** The surrogate of the truncated least-squares cost in Yang et al., RA-L 2020. Convex for mu near
+ * 0, exact for mu to infinity. */
+class TruncatedLeastSquares : public Graduation {
+ public:
+  /** So that the surrogate is convex over all residuals (their remark 5). */
+  void start(double largest) override { mu_ = 1.0 / (2.0 * largest - 1.0); }
   /** Closed-form weight (their eq. 14). */
-  double weight(double chi2, double mu) const;
+  double weight(double residual2) const override;
+  void sharpen(double step) override { mu_ *= step; }
+  /** No residual lies between the sure inliers and the sure outliers. */
+  bool exactFor(const std::vector<double>& residuals2) const override;
+
+ private:
+  double inlierLimit() const { return mu_ / (mu_ + 1.0); }
+  double outlierLimit() const { return (mu_ + 1.0) / mu_; }
+
+  double mu_ = 1.0;
 };
 
 }  // namespace lamp

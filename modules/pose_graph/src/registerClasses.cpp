@@ -1,11 +1,18 @@
 #include "lamp/pose_graph/Gnc.h"
-#include "lamp/pose_graph/Lm.h"
+#include "lamp/pose_graph/Icm.h"
+#include "lamp/pose_graph/OdometryGate.h"
+#include "lamp/pose_graph/PlainOptimizers.h"
 
 namespace lamp {
 
 void registerAllClasses_lamp_pose_graph() {
+  mrpt::rtti::registerClass(CLASS_ID(OutlierRejection));
+  mrpt::rtti::registerClass(CLASS_ID(OdometryGate));
+  mrpt::rtti::registerClass(CLASS_ID(Icm));
   mrpt::rtti::registerClass(CLASS_ID(Optimizer));
   mrpt::rtti::registerClass(CLASS_ID(Lm));
+  mrpt::rtti::registerClass(CLASS_ID(Gn));
+  mrpt::rtti::registerClass(CLASS_ID(CeresLm));
   mrpt::rtti::registerClass(CLASS_ID(Gnc));
 }
 

@@ -6,6 +6,7 @@
 
 #include "TestGraphs.h"
 #include "lamp/core/ChiSquare.h"
+#include "lamp/pose_graph/PlainOptimizers.h"
 
 namespace lamp {
 namespace {
@@ -69,6 +70,53 @@ TEST(Gnc, WithoutOutliersItIsLm) {
   const OptimizationResult robust = Gnc().optimize(world.graph), plain = Lm().optimize(world.graph);
   EXPECT_LE(robust.report.rounds, 3);
   EXPECT_LT(meanDistance(robust.world_T_base, plain.world_T_base), 1e-4);
+}
+
+TEST(Gnc, EachSolverAndLossFindsTheOutliers) {
+  WorldOptions world_options;
+  world_options.outliers = 30;
+  const World world = makeWorld(world_options);
+  for (const char* solver : {"Lm", "Gn", "CeresLm"})
+    for (const char* loss : {"TruncatedLeastSquares", "GemanMcClure"}) {
+      GncOptions options;
+      options.solver = solver;
+      options.loss = loss;
+      const OptimizationResult result = Gnc(options).optimize(world.graph);
+      ASSERT_TRUE(result.report.usable) << solver << loss << result.report.termination;
+      EXPECT_EQ(score(result, world).precision, 1.0) << solver << loss;
+      EXPECT_GE(score(result, world).recall, 0.98) << solver << loss;
+    }
+}
+
+TEST(Gnc, ThresholdsFollowTheRankOfTheInformation) {
+  WorldOptions world_options;
+  world_options.outliers = 30;
+  World world = makeWorld(world_options);
+  for (Edge& edge : world.graph.edges())
+    if (edge.mayBeRejected()) {
+      edge.information.row(0).setZero();
+      edge.information.col(0).setZero();
+    }
+  const OptimizationResult result = Gnc().optimize(world.graph);
+  ASSERT_TRUE(result.report.usable);
+  EXPECT_GE(score(result, world).precision, 0.98);
+  EXPECT_GE(score(result, world).recall, 0.98);
+  const double c2 = chiSquareQuantile(GncOptions().inlier_probability, 5);
+  for (const LoopVerdict& loop : result.loops)
+    EXPECT_EQ(loop.verdict == Verdict::kInlier, loop.chi2 <= c2);
+}
+
+TEST(Gnc, LoopsThatAreNotAdmittedStayOut) {
+  const World world = makeWorld({});
+  std::vector<bool> admitted(world.graph.edges().size(), true);
+  EdgeIndex loop = 0;
+  while (!world.graph.edges()[loop].mayBeRejected()) ++loop;
+  admitted[loop] = false;
+  const OptimizationResult result = Gnc().optimize(world.graph, admitted);
+  EXPECT_EQ(result.loops[0].edge, loop);
+  EXPECT_EQ(result.loops[0].verdict, Verdict::kOutlier);
+  EXPECT_EQ(result.loops[0].weight, 0.0);
+  EXPECT_EQ(result.loops[1].verdict, Verdict::kInlier);
 }
 
 TEST(Gnc, FormerVerdictsDoNotCount) {
@@ -142,7 +190,8 @@ TEST(Gnc, EmptyGraphAndLoneNode) {
 
 TEST(Gnc, MadeByNameAndListed) {
   registerAllClasses_lamp_pose_graph();
-  EXPECT_EQ(stageClasses(CLASS_ID(Optimizer)), (std::vector<std::string>{"Gnc", "Lm"}));
+  EXPECT_EQ(stageClasses(CLASS_ID(Optimizer)),
+            (std::vector<std::string>{"CeresLm", "Gn", "Gnc", "Lm"}));
   Faults faults;
   const Ini ini = Ini::fromText("[lamp::Gnc]\nmu_step = 2\nmax_iterations = 7\n", "t.ini", faults);
   EXPECT_TRUE(makeStage<Optimizer>(StageName::parse("Gnc"), "optimizer", "t.ini", ini, faults));

@@ -11,7 +11,7 @@
 #include "lamp/loop_candidates/CandidateGenerator.h"
 #include "lamp/loop_priority/Prioritizer.h"
 #include "lamp/maps/MapExporter.h"
-#include "lamp/pose_graph/Optimizer.h"
+#include "lamp/pose_graph/BackEnd.h"
 #include "lamp/registration/InitialAligner.h"
 #include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/registration/PreparedScanStore.h"
@@ -29,6 +29,7 @@ struct PipelineOptions {
   std::string refiner = "Gicp";
   std::vector<std::string> verifiers = {"GuessDeviation", "OverlapResidual", "FreeSpaceConsistency",
                                         "BothDirections"};
+  std::vector<std::string> outlier_rejection = {"OdometryGate"};
   std::string optimizer = "Gnc";
   std::vector<std::string> exporters = {"Ply", "Pcd", "OctoMap", "Picture"};
   bool inter_robot_loops = true;
@@ -75,7 +76,7 @@ struct Stages {
   std::vector<std::shared_ptr<InitialAligner>> initial_aligners;
   std::shared_ptr<Refiner> refiner;
   std::vector<std::shared_ptr<Verifier>> verifiers;
-  std::shared_ptr<Optimizer> optimizer;
+  BackEnd back_end;
   std::vector<std::shared_ptr<MapExporter>> exporters;
 };
 

@@ -1,42 +1,64 @@
 #pragma once
 
-#include "lamp/pose_graph/Lm.h"
+#include "lamp/pose_graph/Optimizer.h"
+#include "lamp/pose_graph/SolverOptions.h"
 
 namespace lamp {
 
 struct GncOptions {
+  std::string solver = "Lm";
+  std::string loss = "TruncatedLeastSquares";
   double inlier_probability = 0.9999;
-  double mu_step = 1.4;
+  double mu_step = 1.6;
   int max_rounds = 100;
-  int inner_iterations = 6;
-  LmOptions final_solve;
+  int inner_iterations = 10;
+  bool gnc_bias_odom = true;
+  bool incremental = true;
+  SolverOptions final_solve;
 
   void visit(OptionVisitor& v);
 };
 
-/** Graduated non-convexity with truncated least squares over the loop closures; odometry and priors
- * are known inliers.
+/** The last solution of a Gnc. */
+struct GncMemory {
+  std::vector<KeyframeId> nodes;
+  std::vector<Edge> edges;
+  std::vector<bool> inlier;   ///< of each edge
+  std::vector<Pose3> poses;   ///< of each node
+  size_t doubtful_loops = 0;  ///< rejected since all loops were weighed together
+};
+
+/** Graduated non-convexity over the loop closures; odometry and priors are known inliers.
  *
  * Yang, Antonante, Tzoumas, Carlone, "Graduated Non-Convexity for Robust Spatial Perception: From
  * Non-Minimal Solvers to Global Outlier Rejection", RA-L 2020. Unlike there, each round starts
  * again from initialGuess(): a start at the last round's solution, which outliers have distorted,
  * loses true loops. A last stage alternates full solves with verdicts at the threshold until they
- * agree.
+ * agree. The threshold of a loop is the quantile of the chi-square distribution with as many
+ * degrees of freedom as its information matrix has rank.
  *
- * Every loop takes part, whatever its verdict was before. */
+ * A round ends the graduation only if no weight has changed in it and the cost is the robust one
+ * for all residuals; not because the cost stays, nor because all weights are 0 or 1.
+ *
+ * A graph that has grown since the last call is updated: only the new loops are graduated, from the
+ * last poses, among loops that keep their weights; the last stage then judges all loops, so that
+ * old ones come back, or go, where the new ones say so. When such updates have rejected a tenth as
+ * many loops as there are inliers, all loops are graduated anew. */
 class Gnc : public Optimizer {
   DEFINE_MRPT_OBJECT(Gnc, lamp)
 
  public:
   explicit Gnc(const GncOptions& options = {}) : options_(options) {}
 
+  using Optimizer::optimize;
   void visit(OptionVisitor& options) override { options_.visit(options); }
   /** \throws std::runtime_error if the estimate of a node from which a chain starts is not finite.
    */
-  OptimizationResult optimize(const PoseGraph& graph) override;
+  OptimizationResult optimize(const PoseGraph& graph, const std::vector<bool>& admitted) override;
 
  private:
   GncOptions options_;
+  GncMemory memory_;
 };
 
 }  // namespace lamp

@@ -36,13 +36,20 @@ class Optimizer : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(Optimizer)
 
  public:
-  virtual OptimizationResult optimize(const PoseGraph& graph) = 0;
+  /** \param admitted one flag for each edge: loops without it take no part, and come out as
+   *  outliers. Former verdicts do not count. */
+  virtual OptimizationResult optimize(const PoseGraph& graph,
+                                      const std::vector<bool>& admitted) = 0;
+  /** All loops may take part. */
+  OptimizationResult optimize(const PoseGraph& graph) {
+    return optimize(graph, std::vector<bool>(graph.edges().size(), true));
+  }
 };
 
 /** Writes poses, verdicts, weights and residuals of a usable result back into the graph. */
 void applyResult(const OptimizationResult& result, PoseGraph& graph);
 
-/** Registers Lm and Gnc. */
+/** Registers the stages of this module. */
 void registerAllClasses_lamp_pose_graph();
 
 }  // namespace lamp

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lamp/pose_graph/Optimizer.h"
+#include "lamp/pose_graph/OutlierRejection.h"
+
+namespace lamp {
+
+/** The back end of the paper's II-D: outlier rejections, one after the other, then the optimiser.
+ */
+struct BackEnd {
+  std::vector<std::shared_ptr<OutlierRejection>> rejections;
+  std::shared_ptr<Optimizer> optimizer;
+
+  /** Every loop gets a new chance, whatever its verdict was before. */
+  OptimizationResult optimize(const PoseGraph& graph) const;
+};
+
+}  // namespace lamp

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lamp/pose_graph/OutlierRejection.h"
+
+namespace lamp {
+
+struct IcmOptions {
+  std::string test = "uncertainty";
+  double inlier_probability = 0.9999;
+  double max_translation_per_node_m = 0.05;
+  double max_rotation_per_node_rad = 0.005;
+  int most_search_steps = 10000;
+
+  void visit(OptionVisitor& v);
+};
+
+/** Incremental consistency maximisation: keeps the largest set of loop closures that agree in
+ * pairs, over the odometry between their ends (Ebadi et al., ICRA 2020; Mangelson et al., ICRA
+ * 2018, "Pairwise Consistent Measurement Set Maximization").
+ *
+ * Loops are compared with those between the same two chains of odometry: of one robot, or of a pair
+ * of robots. Two loops agree if the cycle through both closes: with the test `uncertainty` by its
+ * squared Mahalanobis distance, from the covariances of odometry and loops; with `per_node` within
+ * LAMP's fixed thresholds for each key node that the cycle passes, for comparison; there each loop
+ * must agree with odometry so, too.
+ *
+ * Remembers what it has compared: later calls add the new loops to it, unless loops before them
+ * have changed. */
+class Icm : public OutlierRejection {
+  DEFINE_MRPT_OBJECT(Icm, lamp)
+
+ public:
+  explicit Icm(const IcmOptions& options = {});
+  ~Icm() override;
+
+  void visit(OptionVisitor& options) override { options_.visit(options); }
+  void reject(const PoseGraph& graph, std::vector<bool>& admitted) override;
+
+ private:
+  class Group;
+
+  IcmOptions options_;
+  std::map<std::pair<int, int>, std::shared_ptr<Group>> groups_;  ///< by their chains
+};
+
+}  // namespace lamp

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+
+// Included by the kernels of each instruction set, which are compiled with flags of their own: no
+// header may come in here whose inline functions other files share.
+
+namespace lamp {
+
+/** BlockKernels' loop. `Column` holds one column of a block in registers; of `Column::kAtOnce`
+ * columns the sums fit there. */
+template <int kSize, class Column>
+void subtractProducts(const double* left, const double* right, const int* rows, size_t count,
+                      const int* position, double* target) {
+  constexpr int kAtOnce = Column::kAtOnce;
+  static_assert(kSize % kAtOnce == 0);
+  for (size_t i = 0; i < count; ++i, left += kSize * kSize) {
+    double* const block = target + static_cast<size_t>(position[rows[i]]) * kSize * kSize;
+    for (int first = 0; first < kSize; first += kAtOnce) {
+      Column sums[kAtOnce];
+      for (int c = 0; c < kAtOnce; ++c) sums[c].load(block + (first + c) * kSize);
+      for (int k = 0; k < kSize; ++k) {
+        Column column;
+        column.load(left + k * kSize);
+        for (int c = 0; c < kAtOnce; ++c) sums[c].subtract(column, right[first + c + k * kSize]);
+      }
+      for (int c = 0; c < kAtOnce; ++c) sums[c].store(block + (first + c) * kSize);
+    }
+  }
+}
+
+}  // namespace lamp

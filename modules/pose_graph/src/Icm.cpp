@@ -1,0 +1,160 @@
+#include "lamp/pose_graph/Icm.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "GrowingClique.h"
+#include "Information.h"
+#include "OdometryChains.h"
+#include "lamp/core/ChiSquare.h"
+
+IMPLEMENTS_MRPT_OBJECT(Icm, OutlierRejection, lamp)
+
+namespace lamp {
+
+namespace {
+
+const char* const kUncertainty = "uncertainty";
+const char* const kPerNode = "per_node";
+
+/** A loop closure, turned so that it leads from the earlier chain, or key node, to the later. */
+struct DirectedLoop {
+  EdgeIndex edge;
+  KeyframeId from, to;
+  RelativePose measured;
+};
+
+DirectedLoop directed(EdgeIndex index, const Edge& edge, bool planar) {
+  const Matrix6d covariance = boundedCovariance(edge.information, planar);
+  if (edge.from < edge.to) return {index, edge.from, edge.to, {edge.from_T_to, covariance}};
+  const Matrix6d Ad = adjoint(edge.from_T_to);
+  return {index, edge.to, edge.from, {edge.from_T_to.inverse(), Ad * covariance * Ad.transpose()}};
+}
+
+int nodesBetween(KeyframeId a, KeyframeId b) {
+  return static_cast<int>(std::max(a.index, b.index) - std::min(a.index, b.index));
+}
+
+RelativePose composed(const RelativePose& a, const RelativePose& b) {
+  return {a.a_T_b * b.a_T_b, composeCovariance(a.covariance, b.a_T_b, b.covariance)};
+}
+
+/** Whether cycles close, by the test that the options name. */
+class Consistency {
+ public:
+  Consistency(const OdometryChains& chains, const IcmOptions& options, bool planar)
+      : chains_(chains),
+        options_(options),
+        threshold_(chiSquareQuantile(options.inlier_probability, planar ? 3 : 6)) {}
+
+  bool agree(const DirectedLoop& a, const DirectedLoop& b) const {
+    const RelativePose there = *chains_.between(a.from, b.from);
+    const RelativePose back = *chains_.between(b.to, a.to);
+    const int nodes = nodesBetween(a.from, b.from) + nodesBetween(a.to, b.to);
+    if (options_.test == kPerNode)
+      return withinThresholds(
+          a.measured.a_T_b.inverse() * there.a_T_b * b.measured.a_T_b * back.a_T_b, nodes);
+    return closes(a, composed(composed(there, b.measured), back));
+  }
+
+  /** Only LAMP's thresholds ask odometry: with uncertainties, that is OdometryGate's part. */
+  bool agreesWithOdometry(const DirectedLoop& loop) const {
+    if (options_.test != kPerNode || chains_.chain(loop.from) != chains_.chain(loop.to))
+      return true;
+    const Pose3 odometry = chains_.between(loop.from, loop.to)->a_T_b;
+    return withinThresholds(loop.measured.a_T_b.inverse() * odometry,
+                            nodesBetween(loop.from, loop.to));
+  }
+
+ private:
+  bool withinThresholds(const Pose3& cycle, int nodes) const {
+    const double allowed = std::max(1, nodes);
+    return cycle.translation().norm() <= allowed * options_.max_translation_per_node_m &&
+           rotationAngle(cycle) <= allowed * options_.max_rotation_per_node_rad;
+  }
+
+  bool closes(const DirectedLoop& a, const RelativePose& other_way) const {
+    const Vector6d error = logSE3(a.measured.a_T_b.inverse() * other_way.a_T_b);
+    return mahalanobis2(error, a.measured.covariance + other_way.covariance) <= threshold_;
+  }
+
+  const OdometryChains& chains_;
+  const IcmOptions& options_;
+  const double threshold_;
+};
+
+}  // namespace
+
+/** The loops between two chains that were compared so far. */
+class Icm::Group {
+ public:
+  explicit Group(size_t most_steps) : clique_(most_steps) {}
+
+  /** Whether these loops are the first of the new list, unchanged. */
+  bool startOf(const std::vector<DirectedLoop>& loops) const {
+    return loops_.size() <= loops.size() &&
+           std::equal(loops_.begin(), loops_.end(), loops.begin(),
+                      [](const DirectedLoop& a, const DirectedLoop& b) {
+                        return a.edge == b.edge && a.from == b.from && a.to == b.to &&
+                               a.measured.a_T_b.matrix() == b.measured.a_T_b.matrix();
+                      });
+  }
+
+  void add(const std::vector<DirectedLoop>& loops, const Consistency& consistency) {
+    for (size_t i = loops_.size(); i < loops.size(); ++i) {
+      std::vector<bool> neighbours;
+      for (const DirectedLoop& other : loops_)
+        neighbours.push_back(consistency.agree(other, loops[i]));
+      clique_.add(neighbours);
+      loops_.push_back(loops[i]);
+    }
+  }
+
+  void rejectOthers(std::vector<bool>& admitted) const {
+    for (const DirectedLoop& loop : loops_) admitted[loop.edge] = false;
+    for (const int member : clique_.clique()) admitted[loops_[member].edge] = true;
+  }
+
+ private:
+  std::vector<DirectedLoop> loops_;
+  GrowingClique clique_;
+};
+
+Icm::Icm(const IcmOptions& options) : options_(options) {}
+Icm::~Icm() = default;
+
+void IcmOptions::visit(OptionVisitor& v) {
+  v("test", test, "how it is told whether two loop closures agree", {kUncertainty, kPerNode});
+  v("inlier_probability", inlier_probability, "",
+    "test uncertainty: share of pairs of true loop closures that are to agree", {0.0, 1.0 - 1e-12});
+  v("max_translation_per_node_m", max_translation_per_node_m, "m",
+    "test per_node: largest gap of a cycle for each key node that it passes", kPositive);
+  v("max_rotation_per_node_rad", max_rotation_per_node_rad, "rad",
+    "test per_node: largest rotation of a cycle for each key node that it passes", kPositive);
+  v("most_search_steps", most_search_steps, "",
+    "for each new loop closure, the search for a larger set is exact within so many steps", {1});
+}
+
+void Icm::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
+  const OdometryChains chains(graph);
+  const Consistency consistency(chains, options_, graph.planar());
+  std::map<std::pair<int, int>, std::vector<DirectedLoop>> loops;
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
+    if (!graph.edges()[e].mayBeRejected() || !admitted[e]) continue;
+    const DirectedLoop loop = directed(e, graph.edges()[e], graph.planar());
+    if (consistency.agreesWithOdometry(loop))
+      loops[{chains.chain(loop.from), chains.chain(loop.to)}].push_back(loop);
+    else
+      admitted[e] = false;
+  }
+  for (const auto& [key, of_group] : loops) {
+    std::shared_ptr<Group>& group = groups_[key];
+    if (!group || !group->startOf(of_group))
+      group = std::make_shared<Group>(static_cast<size_t>(options_.most_search_steps));
+    group->add(of_group, consistency);
+    group->rejectOthers(admitted);
+  }
+}
+
+}  // namespace lamp

@@ -1,0 +1,103 @@
+#include "PgoReport.h"
+
+#include <iomanip>
+#include <sstream>
+
+#include "lamp/pose_graph/EdgeResiduals.h"
+
+namespace lamp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/** Precision and recall of the kept loops; null where nothing is counted. */
+Json scores(const OptimizationResult& result, size_t true_edges) {
+  double kept = 0, right = 0, all = 0;
+  for (const LoopVerdict& loop : result.loops) {
+    const bool is_true = loop.edge < true_edges, inlier = loop.verdict == Verdict::kInlier;
+    kept += inlier;
+    all += is_true;
+    right += is_true && inlier;
+  }
+  const auto share = [](double part, double whole) {
+    return whole > 0 ? Json(part / whole) : Json();
+  };
+  return {{"true_loops", static_cast<size_t>(all)},
+          {"false_loops", result.loops.size() - static_cast<size_t>(all)},
+          {"precision", share(right, kept)},
+          {"recall", share(right, all)}};
+}
+
+Json edgeRows(const G2oGraph& g2o, const OptimizationResult& result,
+              const std::vector<double>& residuals2) {
+  Json rows = Json::array();
+  const std::vector<Edge>& edges = g2o.graph.edges();
+  for (EdgeIndex e = 0; e < edges.size(); ++e)
+    rows.push_back({{"from", g2o.name(edges[e].from)},
+                    {"to", g2o.name(edges[e].to)},
+                    {"type", toString(edges[e].type)},
+                    {"weight", 1.0},
+                    {"verdict", toString(Verdict::kInlier)},
+                    {"chi2", residuals2[e]}});
+  for (const LoopVerdict& loop : result.loops) {
+    rows[loop.edge]["weight"] = loop.weight;
+    rows[loop.edge]["verdict"] = toString(loop.verdict);
+  }
+  return rows;
+}
+
+}  // namespace
+
+Json pgoReport(const G2oGraph& g2o, const OptimizationResult& result, size_t true_edges) {
+  std::vector<Pose3> before;
+  for (const Node& node : g2o.graph.nodes()) before.push_back(node.world_T_base);
+  const auto residuals_before = edgeResiduals2(g2o.graph, before);
+  const auto residuals_after = edgeResiduals2(g2o.graph, result.world_T_base);
+  const Json rows = edgeRows(g2o, result, residuals_after);
+  double cost_before = 0, cost_after = 0;
+  size_t inliers = 0;
+  for (EdgeIndex e = 0; e < rows.size(); ++e) {
+    cost_before += 0.5 * residuals_before[e];
+    cost_after += 0.5 * rows[e]["weight"].get<double>() * residuals_after[e];
+  }
+  for (const LoopVerdict& loop : result.loops) inliers += loop.verdict == Verdict::kInlier;
+  Json report = {{"planar", g2o.graph.planar()},
+                 {"nodes", g2o.graph.nodes().size()},
+                 {"robots", g2o.letters.size()},
+                 {"edges", rows.size()},
+                 {"loops", result.loops.size()},
+                 {"inliers", inliers},
+                 {"skipped_lines", g2o.skipped},
+                 {"usable", result.report.usable},
+                 {"termination", result.report.termination},
+                 {"rounds", result.report.rounds},
+                 {"iterations", result.report.iterations},
+                 {"cost_before", cost_before},
+                 {"cost_after", cost_after}};
+  if (true_edges < rows.size()) report["outliers"] = scores(result, true_edges);
+  report["edge_rows"] = rows;
+  return report;
+}
+
+std::string pgoSummary(const Json& report) {
+  std::ostringstream text;
+  text << std::setprecision(8) << report["nodes"] << " nodes of " << report["robots"]
+       << " robot(s), " << report["edges"] << " edges\n"
+       << "loop closures: " << report["inliers"] << " of " << report["loops"] << " kept\n"
+       << "cost: " << report["cost_before"].get<double>() << " before, with all edges; "
+       << report["cost_after"].get<double>() << " after, weighted\n"
+       << report["rounds"] << " rounds, " << report["iterations"] << " iterations; "
+       << report["termination"].get<std::string>() << "\n";
+  for (const auto& [tag, count] : report["skipped_lines"].items())
+    text << "skipped: " << count << " lines " << tag << "\n";
+  if (report.contains("outliers")) {
+    const Json& outliers = report["outliers"];
+    text << "of " << outliers["true_loops"] << " true and " << outliers["false_loops"]
+         << " false loops: precision " << outliers["precision"] << ", recall " << outliers["recall"]
+         << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace lamp

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lamp/pose_graph/G2oFile.h"
+#include "lamp/pose_graph/Optimizer.h"
+
+namespace lamp {
+
+/** What lamp-pgo tells of a run: counts, costs, a row for each edge with weight, verdict and
+ * squared residual. \param true_edges number of edges that the file brought; those behind are false
+ * loops, by which precision and recall are counted if there are any. */
+nlohmann::ordered_json pgoReport(const G2oGraph& g2o, const OptimizationResult& result,
+                                 size_t true_edges);
+
+/** The main figures in a few lines. */
+std::string pgoSummary(const nlohmann::ordered_json& report);
+
+}  // namespace lamp

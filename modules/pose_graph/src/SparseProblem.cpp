@@ -1,0 +1,78 @@
+#include "SparseProblem.h"
+
+#include "FinitePoses.h"
+#include "GaugeAnchors.h"
+
+namespace lamp {
+
+template <class Space>
+SparseProblem<Space>::SparseProblem(const PoseGraph& graph, const std::vector<Pose3>& world_T_base,
+                                    Minimizer minimizer)
+    : graph_(graph), minimize_(minimizer), terms_(poseTerms<Space>(graph)) {
+  setPoses(world_T_base);
+}
+
+template <class Space>
+void SparseProblem<Space>::setPoses(const std::vector<Pose3>& world_T_base) {
+  checkFinite(graph_, world_T_base);
+  poses_.clear();
+  for (const Pose3& pose : world_T_base) poses_.push_back(Space::fromPose3(normalized(pose)));
+}
+
+template <class Space>
+std::vector<Pose3> SparseProblem<Space>::poses() const {
+  std::vector<Pose3> result;
+  for (const Pose& pose : poses_) result.push_back(Space::toPose3(pose));
+  return result;
+}
+
+template <class Space>
+void SparseProblem<Space>::setWeight(EdgeIndex edge, double weight) {
+  if ((terms_[edge].weight > 0) != (weight > 0)) equations_.reset();
+  terms_[edge].weight = weight;
+}
+
+template <class Space>
+SolveSummary SparseProblem<Space>::solve(const SolverOptions& options) {
+  if (!equations_) build();
+  const std::vector<Pose> start = poses_;
+  const SolveSummary summary = minimize_(*this, options);
+  if (!summary.usable) poses_ = start;
+  return summary;
+}
+
+template <class Space>
+void SparseProblem<Space>::build() {
+  std::vector<double> weights;
+  for (const PoseTerm<Space>& term : terms_) weights.push_back(term.weight);
+  row_.assign(graph_.nodes().size(), 0);
+  for (const size_t anchor : gaugeAnchors(graph_, weights)) row_[anchor] = -1;
+  int size = 0;
+  for (int& row : row_)
+    if (row == 0) row = size++;
+  equations_ = std::make_unique<NormalEquations<Space>>(terms_, row_, size);
+  cholesky_ = std::make_unique<BlockCholesky<Space::kDof>>(equations_->matrix());
+}
+
+template <class Space>
+std::optional<double> SparseProblem<Space>::computeStep(double damping) {
+  if (!cholesky_->factorize(equations_->matrix(), damping)) return std::nullopt;
+  const Eigen::VectorXd& gradient = equations_->gradient();
+  step_ = -gradient;
+  cholesky_->solve(step_);
+  move();
+  return 0.5 * (damping * equations_->matrix().scaledNorm2(step_) - gradient.dot(step_));
+}
+
+template <class Space>
+void SparseProblem<Space>::move() {
+  constexpr int kDof = Space::kDof;
+  moved_ = poses_;
+  for (size_t i = 0; i < row_.size(); ++i)
+    if (row_[i] >= 0) moved_[i] = Space::plus(poses_[i], step_.segment<kDof>(kDof * row_[i]));
+}
+
+template class SparseProblem<Se2>;
+template class SparseProblem<Se3>;
+
+}  // namespace lamp

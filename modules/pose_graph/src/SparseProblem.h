@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "BlockCholesky.h"
+#include "Minimizers.h"
+#include "NormalEquations.h"
+#include "PoseProblem.h"
+
+namespace lamp {
+
+/** A pose problem for our own sparse block solver. */
+template <class Space>
+class SparseProblem : public PoseProblem, private LeastSquares {
+ public:
+  using Minimizer = SolveSummary (*)(LeastSquares&, const SolverOptions&);
+
+  SparseProblem(const PoseGraph& graph, const std::vector<Pose3>& world_T_base,
+                Minimizer minimizer);
+
+  void setPoses(const std::vector<Pose3>& world_T_base) override;
+  std::vector<Pose3> poses() const override;
+  void setWeight(EdgeIndex edge, double weight) override;
+  double chi2(EdgeIndex edge) const override {
+    return terms_[edge].chi2(poses_[terms_[edge].from], poses_[terms_[edge].to]);
+  }
+  SolveSummary solve(const SolverOptions& options) override;
+
+ private:
+  using Pose = typename Space::Pose;
+
+  void build();
+  double linearize() override { return equations_->linearize(poses_); }
+  std::optional<double> computeStep(double damping) override;
+  double costAfterStep() override { return equations_->cost(moved_); }
+  void acceptStep() override { poses_ = moved_; }
+  void move();
+
+  const PoseGraph& graph_;
+  const Minimizer minimize_;
+  std::vector<PoseTerm<Space>> terms_;
+  std::vector<Pose> poses_;
+  std::vector<Pose> moved_;  ///< by the last step
+  std::vector<int> row_;     ///< of each node in the equations, -1 for held ones
+  std::unique_ptr<NormalEquations<Space>> equations_;  ///< null if the structure has changed
+  std::unique_ptr<BlockCholesky<Space::kDof>> cholesky_;
+  Eigen::VectorXd step_;
+};
+
+extern template class SparseProblem<Se2>;
+extern template class SparseProblem<Se3>;
+
+}  // namespace lamp

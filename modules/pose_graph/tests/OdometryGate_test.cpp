@@ -1,0 +1,96 @@
+#include "lamp/pose_graph/OdometryGate.h"
+
+#include <gtest/gtest.h>
+
+#include "TestGraphs.h"
+
+namespace lamp {
+namespace {
+
+struct Passed {
+  int right = 0, wrong = 0;
+};
+
+Passed passed(const World& world, OdometryGateOptions options = {}) {
+  std::vector<bool> admitted(world.graph.edges().size(), true);
+  OdometryGate(options).reject(world.graph, admitted);
+  Passed result;
+  for (size_t e = 0; e < admitted.size(); ++e) {
+    if (!world.graph.edges()[e].mayBeRejected()) {
+      EXPECT_TRUE(admitted[e]);
+      continue;
+    }
+    if (admitted[e]) ++(world.true_edge[e] ? result.right : result.wrong);
+  }
+  return result;
+}
+
+class Gate : public testing::TestWithParam<bool> {
+ protected:
+  static WorldOptions options() {
+    WorldOptions options;
+    options.planar = GetParam();
+    options.loops = 60;
+    options.outliers = 240;
+    return options;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, Gate, testing::Bool());
+
+TEST_P(Gate, LetsTrueLoopsPassAndFewOthers) {
+  const Passed loops = passed(makeWorld(options()));
+  EXPECT_GE(loops.right, 59);
+  EXPECT_LT(loops.wrong, 60);
+}
+
+TEST_P(Gate, OdometryThatIsWorseThanItSaysLosesNoLoop) {
+  World world = makeWorld(options());
+  for (Edge& edge : world.graph.edges())
+    if (edge.type == EdgeType::kOdometry) edge.information *= 10;
+  EXPECT_GE(passed(world).right, 58);
+  OdometryGateOptions strict;
+  strict.max_scale = 1;
+  EXPECT_LT(passed(world, strict).right, 50);
+}
+
+TEST_P(Gate, UnrelatedRobotsPass) {
+  WorldOptions apart = options();
+  apart.priors = false;
+  const World world = makeWorld(apart);
+  std::vector<bool> admitted(world.graph.edges().size(), true);
+  OdometryGate().reject(world.graph, admitted);
+  for (size_t e = 0; e < admitted.size(); ++e)
+    EXPECT_TRUE(admitted[e] || !world.graph.edges()[e].betweenRobots());
+}
+
+TEST(OdometryGate, DirectionsThatALoopDoesNotKnowAreNotJudged) {
+  WorldOptions options;
+  options.robots = 1;
+  options.loops = 0;
+  World world = makeWorld(options);
+  Edge loop = makeEdge(EdgeType::kLoopClosure, keyframe(0, 0), keyframe(0, 30),
+                       world.truth[0].inverse() * world.truth[30], informationOf(0.05, 0.01));
+  loop.from_T_to.translation() += loop.from_T_to.linear() * Eigen::Vector3d(20, 0, 0);
+  for (const bool blind : {false, true}) {
+    if (blind) {
+      loop.information.row(0).setZero();
+      loop.information.col(0).setZero();
+    }
+    World with = world;
+    with.graph.addEdge(loop);
+    std::vector<bool> admitted(with.graph.edges().size(), true);
+    OdometryGateOptions strict;
+    strict.max_scale = 1;
+    OdometryGate(strict).reject(with.graph, admitted);
+    EXPECT_EQ(admitted.back(), blind);
+  }
+}
+
+TEST(OdometryGate, NoLoopsNoNodes) {
+  std::vector<bool> none;
+  OdometryGate().reject(PoseGraph(), none);
+  EXPECT_TRUE(none.empty());
+}
+
+}  // namespace
+}  // namespace lamp
