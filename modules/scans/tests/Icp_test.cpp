@@ -4,27 +4,16 @@
 
 #include <cmath>
 
+#include "TestMotions.h"
 #include "TestRooms.h"
 
 namespace lamp {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
-
-std::vector<Eigen::Vector3f> moved(std::vector<Eigen::Vector3f> points, const Pose3& T) {
-  const Eigen::Isometry3f Tf = T.cast<float>();
-  for (auto& p : points) p = Tf * p;
-  return points;
-}
+using namespace test;
 
 Vector6d errorOf(const Pose3& truth, const Pose3& estimate) {
   return logSE3(truth.inverse() * estimate);
-}
-
-Vector6d tangent(double x, double y, double z, double rx, double ry, double rz) {
-  Vector6d v;
-  v << x, y, z, rx, ry, rz;
-  return v;
 }
 
 class IcpMetrics : public testing::TestWithParam<IcpMetric> {};
@@ -84,7 +73,7 @@ TEST_P(IcpMetrics, RefusesWhatCannotBeAligned) {
 TEST_P(IcpMetrics, ASinglePlaneLeavesUnobservedDirectionsAlone) {
   std::vector<Eigen::Vector3f> plane;
   for (int i = 0; i < 40; ++i)
-    for (int j = 0; j < 40; ++j) plane.emplace_back(0.1f * i, 0.1f * j, 0.0f);
+    for (int j = 0; j < 40; ++j) plane.emplace_back(0.1f * i, 0.1f * j, -1.0f);
   const auto target = prepareScan(plane, 10, false);
   const auto source = prepareScan(moved(plane, expSE3(tangent(0, 0, 0.1, 0, 0, 0))), 10, false);
   const IcpResult result = icp(*source, *target, Pose3::Identity(), GetParam(), IcpOptions{});
@@ -92,33 +81,50 @@ TEST_P(IcpMetrics, ASinglePlaneLeavesUnobservedDirectionsAlone) {
   EXPECT_NEAR(result.target_T_source.translation().z(), -0.1, 0.01);
 }
 
-TEST(Icp, InformationIsTheSumOfPointToPlaneJacobians) {
-  // One horizontal plane through the origin's height: h = [n, p x n] with n = z.
+TEST(Icp, InformationIsTheSumOfPointToPlaneJacobiansAboutThePivot) {
+  // One horizontal plane: h = [n, lever x n] with n = z.
   std::vector<Eigen::Vector3f> plane;
   for (int i = -10; i <= 10; ++i)
-    for (int j = -10; j <= 10; ++j) plane.emplace_back(0.2f * i, 0.2f * j, 0.0f);
+    for (int j = -10; j <= 10; ++j) plane.emplace_back(3 + 0.2f * i, 0.2f * j, -1.0f);
   const auto scan = prepareScan(plane, 8, false);
   const IcpResult result = icp(*scan, *scan, Pose3::Identity(), IcpMetric::kPointToPlane, {});
+  EXPECT_LT((result.pivot - Eigen::Vector3d(3, 0, -1)).norm(), 1e-6);
+  EXPECT_NEAR(result.weights, static_cast<double>(plane.size()), 1e-6);
   Matrix6d expected = Matrix6d::Zero();
   for (const auto& p : plane) {
     Vector6d h = Vector6d::Zero();
     h[2] = 1;
     h[3] = p.y();
-    h[4] = -p.x();
+    h[4] = 3.0 - p.x();
     expected += h * h.transpose();
   }
   EXPECT_LT((result.information - expected).norm(), 1e-3 * expected.norm());
 }
 
-TEST(Agreement, IsFullForTheSameRoomAndLowForAShiftedOne) {
-  const auto a = prepareScan(roomPoints(6000, 0.01f, 1), 10, false);
-  const auto b = prepareScan(roomPoints(3000, 0.01f, 2), 10, false);
-  const Agreement same = agreement(*b, *a, Pose3::Identity(), 0.3);
-  EXPECT_GT(same.overlap, 0.9);
-  EXPECT_LT(same.residual_m, 0.05);
-  const Agreement shifted = agreement(*b, *a, expSE3(tangent(3, 2, 1, 0, 0, 0.7)), 0.3);
-  EXPECT_LT(shifted.overlap, 0.4);
-  EXPECT_EQ(agreement(*prepareScan({}, 10, false), *a, Pose3::Identity(), 0.3).overlap, 0.0);
+TEST_P(IcpMetrics, WorksTenKilometresFromTheOrigin) {
+  const Pose3 there = Pose3(Eigen::Translation3d(10000, -10000, 50));
+  const Pose3 motion = expSE3(tangent(0.3, -0.2, 0.1, 0.01, -0.02, 0.05));
+  const auto target = prepareScan(moved(roomPoints(4000, 0.01f, 1), there), 10, false);
+  const auto source = prepareScan(moved(roomPoints(4000, 0.01f, 2), there * motion), 10, false);
+  const IcpResult result = icp(*source, *target, Pose3::Identity(), GetParam(), {});
+  ASSERT_TRUE(result.converged);
+  const Pose3 truth = there * motion.inverse() * there.inverse();
+  const Eigen::Vector3d room = there.translation();
+  EXPECT_LT((result.target_T_source * room - truth * room).norm(), 0.05);
+}
+
+TEST_P(IcpMetrics, AFloorIsNotMatchedWithACeiling) {
+  std::vector<Eigen::Vector3f> floor, ceiling;
+  for (int i = -20; i < 20; ++i)
+    for (int j = -20; j < 20; ++j) {
+      floor.emplace_back(0.1f * i, 0.1f * j, -1.0f);
+      ceiling.emplace_back(0.1f * i, 0.1f * j, 1.0f);
+    }
+  const Pose3 onto_each_other = Pose3(Eigen::Translation3d(0, 0, 2));
+  const IcpResult result = icp(*prepareScan(floor, 10, false), *prepareScan(ceiling, 10, false),
+                               onto_each_other, GetParam(), {});
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.matches, 0u);
 }
 
 TEST(KdTree, FindsWhatBruteForceFinds) {
@@ -140,13 +146,14 @@ TEST(KdTree, FindsWhatBruteForceFinds) {
 TEST(PreparedScan, NormalsOfARoomPointAlongItsAxes) {
   const auto scan = prepareScan(roomPoints(6000, 0.0f, 1), 10, false);
   size_t aligned = 0;
-  for (const auto& normal : scan->normals) aligned += normal.cwiseAbs().maxCoeff() > 0.99f ? 1 : 0;
+  for (const auto& normal : scan->normals())
+    aligned += normal.cwiseAbs().maxCoeff() > 0.99f ? 1 : 0;
   EXPECT_GT(aligned, scan->size() * 8 / 10);
 }
 
 TEST(PreparedScan, PlanarNormalsLieInThePlane) {
   const auto scan = prepareScan(planarRoomPoints(600, 0.005f, 1), 6, true);
-  for (const auto& normal : scan->normals) EXPECT_EQ(normal.z(), 0.0f);
+  for (const auto& normal : scan->normals()) EXPECT_EQ(normal.z(), 0.0f);
 }
 
 }  // namespace
