@@ -93,7 +93,7 @@ TEST_P(IcpMetrics, ASinglePlaneLeavesUnobservedDirectionsAlone) {
 }
 
 TEST(Icp, InformationIsTheSumOfPointToPlaneJacobians) {
-  // One horizontal plane through the origin's height: h = [n, p x n] with n = z.
+  // One horizontal plane around the origin, the pivot: h = [n, p x n] with n = z.
   std::vector<Eigen::Vector3f> plane;
   for (int i = -10; i <= 10; ++i)
     for (int j = -10; j <= 10; ++j) plane.emplace_back(0.2f * i, 0.2f * j, 0.0f);
@@ -110,43 +110,43 @@ TEST(Icp, InformationIsTheSumOfPointToPlaneJacobians) {
   EXPECT_LT((result.information - expected).norm(), 1e-3 * expected.norm());
 }
 
-TEST(Agreement, IsFullForTheSameRoomAndLowForAShiftedOne) {
-  const auto a = prepareScan(roomPoints(6000, 0.01f, 1), 10, false);
-  const auto b = prepareScan(roomPoints(3000, 0.01f, 2), 10, false);
-  const Agreement same = agreement(*b, *a, Pose3::Identity(), 0.3);
-  EXPECT_GT(same.overlap, 0.9);
-  EXPECT_LT(same.residual_m, 0.05);
-  const Agreement shifted = agreement(*b, *a, expSE3(tangent(3, 2, 1, 0, 0, 0.7)), 0.3);
-  EXPECT_LT(shifted.overlap, 0.4);
-  EXPECT_EQ(agreement(*prepareScan({}, 10, false), *a, Pose3::Identity(), 0.3).overlap, 0.0);
+TEST(Icp, InformationIsAboutThePivotInTheTargetsAxes) {
+  // The same plane, seen from a frame that is turned and 50 m away: the pivot goes with it.
+  const Pose3 target_T_source = expSE3(tangent(50, -20, 5, 0.1, 0.2, 1.0));
+  const auto plane = roomPoints(3000, 0.0f, 1);
+  const auto target = prepareScan(plane, 10, false);
+  const auto source = prepareScan(moved(plane, target_T_source.inverse()), 10, false);
+  const IcpResult same = icp(*target, *target, Pose3::Identity(), IcpMetric::kPointToPlane, {});
+  const IcpResult far = icp(*source, *target, target_T_source, IcpMetric::kPointToPlane, {});
+  ASSERT_TRUE(same.converged && far.converged);
+  EXPECT_LT((far.pivot - same.pivot).norm(), 1e-3);
+  EXPECT_LT((far.information - same.information).norm(), 0.01 * same.information.norm());
+  EXPECT_NEAR(far.radius_m, same.radius_m, 1e-3);
+  EXPECT_GT(far.patches, 50);
 }
 
-TEST(KdTree, FindsWhatBruteForceFinds) {
-  const auto points = roomPoints(500, 0.1f, 3);
-  const auto queries = roomPoints(100, 1.0f, 4);
-  const KdTree tree(points);
-  for (const auto& query : queries) {
-    size_t best = 0;
-    for (size_t i = 1; i < points.size(); ++i)
-      if ((points[i] - query).squaredNorm() < (points[best] - query).squaredNorm()) best = i;
-    const float distance = (points[best] - query).norm();
-    float squared = -1;
-    EXPECT_EQ(tree.nearest(query, distance * 1.01f, squared), best);
-    EXPECT_NEAR(std::sqrt(squared), distance, 1e-5);
-    EXPECT_EQ(tree.nearest(query, distance * 0.99f, squared), KdTree::kNone);
-  }
+TEST_P(IcpMetrics, WorksTenKilometresFromTheOrigin) {
+  const Pose3 offset(Eigen::Translation3d(10000, -10000, 100));
+  const Pose3 motion = expSE3(tangent(0.2, -0.3, 0.1, 0.02, -0.01, 0.05));
+  const auto target = prepareScan(moved(roomPoints(4000, 0.01f, 1), offset), 10, false);
+  const auto source =
+      prepareScan(moved(moved(roomPoints(3000, 0.01f, 2), motion.inverse()), offset), 10, false);
+  const IcpResult result = icp(*source, *target, Pose3::Identity(), GetParam(), IcpOptions{});
+  ASSERT_TRUE(result.converged);
+  const Vector6d error = errorOf(motion, Pose3(offset.inverse() * result.target_T_source * offset));
+  EXPECT_LT(error.head<3>().norm(), 0.03);
+  EXPECT_LT(error.tail<3>().norm(), 0.3 * kDegree);
 }
 
-TEST(PreparedScan, NormalsOfARoomPointAlongItsAxes) {
-  const auto scan = prepareScan(roomPoints(6000, 0.0f, 1), 10, false);
-  size_t aligned = 0;
-  for (const auto& normal : scan->normals) aligned += normal.cwiseAbs().maxCoeff() > 0.99f ? 1 : 0;
-  EXPECT_GT(aligned, scan->size() * 8 / 10);
-}
-
-TEST(PreparedScan, PlanarNormalsLieInThePlane) {
-  const auto scan = prepareScan(planarRoomPoints(600, 0.005f, 1), 6, true);
-  for (const auto& normal : scan->normals) EXPECT_EQ(normal.z(), 0.0f);
+TEST_P(IcpMetrics, IgnoresPointsThatAreNotFinite) {
+  auto points = roomPoints(2000, 0.01f, 2);
+  const auto clean = prepareScan(points, 10, false);
+  points.emplace_back(NAN, 0.0f, 0.0f);
+  points.emplace_back(0.0f, INFINITY, 0.0f);
+  const auto dirty = prepareScan(points, 10, false);
+  const auto target = prepareScan(roomPoints(3000, 0.01f, 1), 10, false);
+  EXPECT_EQ(icp(*dirty, *target, Pose3::Identity(), GetParam(), {}).target_T_source.matrix(),
+            icp(*clean, *target, Pose3::Identity(), GetParam(), {}).target_T_source.matrix());
 }
 
 }  // namespace
