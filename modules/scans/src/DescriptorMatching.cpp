@@ -55,6 +55,7 @@ void forSimilarities(const Features& source, const Features& target, const Take&
 }  // namespace
 
 std::vector<Match> mutualMatches(const Features& source, const Features& target, int rank) {
+  if (rank < 1) return {};
   std::vector<BestFew> of_source(source.size(), BestFew(rank)),
       of_target(target.size(), BestFew(rank));
   std::vector<float> worst(target.size(), -2.0f);
@@ -80,7 +81,7 @@ std::vector<Match> mutualMatches(const Features& source, const Features& target,
 Eigen::Matrix<uint32_t, Eigen::Dynamic, Eigen::Dynamic> mostSimilar(const Features& source,
                                                                     const Features& target,
                                                                     int count) {
-  const int rows = std::min(count, static_cast<int>(target.size()));
+  const int rows = std::clamp(count, 0, static_cast<int>(target.size()));
   Eigen::Matrix<uint32_t, Eigen::Dynamic, Eigen::Dynamic> result(
       rows, static_cast<Eigen::Index>(source.size()));
   if (rows == 0) return result;
