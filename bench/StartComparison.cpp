@@ -49,7 +49,9 @@ class GroundTruth : public InitialAligner {
   Pose3 truth = Pose3::Identity();
   void visit(OptionVisitor&) override {}
   AlignmentResult align(const PreparedScan&, const PreparedScan&, const Guess&) const override {
-    return {{Hypothesis{truth}}, ""};
+    Hypothesis hypothesis;
+    hypothesis.target_T_source = truth;
+    return {{hypothesis}, ""};
   }
   mrpt::rtti::CObject* clone() const override { return new GroundTruth(*this); }
   const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override {

@@ -13,7 +13,9 @@ AlignmentResult Identity::align(const PreparedScan&, const PreparedScan&, const 
 
 AlignmentResult Odometry::align(const PreparedScan&, const PreparedScan&,
                                 const Guess& guess) const {
-  return {{Hypothesis{guess.target_T_source}}, ""};
+  Hypothesis hypothesis;
+  hypothesis.target_T_source = guess.target_T_source;
+  return {{hypothesis}, ""};
 }
 
 AlignmentResult OdometryRotation::align(const PreparedScan&, const PreparedScan&,

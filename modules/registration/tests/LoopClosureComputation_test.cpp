@@ -63,6 +63,12 @@ namespace {
 using namespace test;
 using testing::IsEmpty;
 
+Hypothesis at(double x) {
+  Hypothesis hypothesis;
+  hypothesis.target_T_source = planarPose(x, 0, 0);
+  return hypothesis;
+}
+
 class LoopClosureComputationTest : public testing::Test {
  protected:
   LoopClosureComputationTest() {
@@ -73,7 +79,7 @@ class LoopClosureComputationTest : public testing::Test {
   }
 
   void hypothesesAt(const std::vector<double>& xs) const {
-    for (const double x : xs) aligner->answer.hypotheses.push_back(Hypothesis{planarPose(x, 0, 0)});
+    for (const double x : xs) aligner->answer.hypotheses.push_back(at(x));
   }
 
   LoopClosureAttempt compute() const {
@@ -170,7 +176,7 @@ TEST_F(LoopClosureComputationTest, TheRefusalOfTheHypothesisThatCameFarthestIsTo
 
 TEST_F(LoopClosureComputationTest, TheNextAlignerIsAskedIfTheFirstOneFails) {
   const auto other = std::make_shared<ScriptedAligner>();
-  other->answer.hypotheses = {Hypothesis{planarPose(7, 0, 0)}};
+  other->answer.hypotheses = {at(7)};
   hypothesesAt({3});
   const auto scan = prepareScan({}, 3, false);
   const LoopClosureComputation both({aligner, other}, refiner, {first, second}, {});

@@ -1,6 +1,7 @@
 #include "lamp/scans/ConsistencyGraph.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "VectorKernels.h"
 
@@ -25,6 +26,10 @@ void forBits(const Bits& bits, const Use& use) {
       use(static_cast<uint32_t>(64 * w + static_cast<size_t>(__builtin_ctzll(rest))));
 }
 
+void erase(uint32_t v, Bits& bits) {
+  bits[v / 64] &= ~(uint64_t{1} << (v % 64));
+}
+
 class Search {
  public:
   Search(const ConsistencyGraph& graph, const std::vector<bool>& allowed, size_t max_branches)
@@ -39,7 +44,7 @@ class Search {
     // Vertices in ascending core number: the clique that a vertex leads lies among its later ones.
     for (size_t k = 0; k < order_.size(); ++k) {
       const uint32_t v = order_[k];
-      alive_[v / 64] &= ~(uint64_t{1} << (v % 64));
+      erase(v, alive_);
       if (core_[v] < best_.size()) continue;
       std::vector<uint32_t> clique{v};
       branch(clique, common(alive_, v));
@@ -73,7 +78,7 @@ class Search {
       core = std::max(core, d);
       core_[v] = core;
       order_.push_back(v);
-      left[v / 64] &= ~(uint64_t{1} << (v % 64));
+      erase(v, left);
       forBits(common(left, v), [&](uint32_t u) { of_degree[--degree[u]].push_back(u); });
       if (d > 0) --d;
     }
@@ -85,8 +90,18 @@ class Search {
     return result;
   }
 
-  size_t degreeWithin(uint32_t v, const Bits& bits) const {
-    return count(graph_.row(v), bits.data(), bits.size());
+  struct Choice {
+    uint32_t vertex;
+    size_t kept;  ///< neighbours among the candidates
+  };
+  /** The candidate that keeps most of the others, the first of equals. */
+  std::optional<Choice> mostConnected(const Bits& candidates) const {
+    std::optional<Choice> best;
+    forBits(candidates, [&](uint32_t v) {
+      const size_t kept = count(graph_.row(v), candidates.data(), candidates.size());
+      if (!best || kept > best->kept) best = Choice{v, kept};
+    });
+    return best;
   }
 
   /** Greedy cliques: always on to the vertex that keeps most candidates. */
@@ -97,20 +112,9 @@ class Search {
       if (core_[seed] < best_.size()) return;
       std::vector<uint32_t> clique{seed};
       Bits candidates = common(alive_, seed);
-      while (true) {
-        size_t most = 0;
-        uint32_t next = 0;
-        bool found = false;
-        forBits(candidates, [&](uint32_t v) {
-          const size_t kept = degreeWithin(v, candidates);
-          if (found && kept <= most) return;
-          most = kept;
-          next = v;
-          found = true;
-        });
-        if (!found) break;
-        clique.push_back(next);
-        candidates = common(candidates, next);
+      while (const auto next = mostConnected(candidates)) {
+        clique.push_back(next->vertex);
+        candidates = common(candidates, next->vertex);
       }
       if (clique.size() > best_.size()) best_ = clique;
     }
@@ -123,20 +127,11 @@ class Search {
     while (left > 0 && clique.size() + left > best_.size()) {
       if (branches_left_ == 0) return;
       --branches_left_;
-      uint32_t next = 0;
-      size_t most = 0;
-      bool found = false;
-      forBits(candidates, [&](uint32_t v) {
-        const size_t kept = degreeWithin(v, candidates);
-        if (found && kept <= most) return;
-        most = kept;
-        next = v;
-        found = true;
-      });
+      const auto [next, kept] = *mostConnected(candidates);
       clique.push_back(next);
-      if (clique.size() + most >= best_.size()) branch(clique, common(candidates, next));
+      if (clique.size() + kept > best_.size()) branch(clique, common(candidates, next));
       clique.pop_back();
-      candidates[next / 64] &= ~(uint64_t{1} << (next % 64));
+      erase(next, candidates);
       --left;
     }
   }

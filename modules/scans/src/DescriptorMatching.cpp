@@ -66,6 +66,7 @@ void excludeOutside(const Eigen::Vector3f& center, float radius, const Features&
 
 std::vector<Match> mutualMatches(const Features& source, const Features& target, int rank,
                                  const std::optional<Whereabouts>& whereabouts) {
+  if (rank < 1) return {};
   std::vector<BestFew> of_source(source.size(), BestFew(rank)),
       of_target(target.size(), BestFew(rank));
   std::vector<float> worst(target.size(), kLeastSimilar);
@@ -92,7 +93,7 @@ std::vector<Match> mutualMatches(const Features& source, const Features& target,
 Eigen::Matrix<uint32_t, Eigen::Dynamic, Eigen::Dynamic> mostSimilar(const Features& source,
                                                                     const Features& target,
                                                                     int count) {
-  const int rows = std::min(count, static_cast<int>(target.size()));
+  const int rows = std::clamp(count, 0, static_cast<int>(target.size()));
   Eigen::Matrix<uint32_t, Eigen::Dynamic, Eigen::Dynamic> result(
       rows, static_cast<Eigen::Index>(source.size()));
   if (rows == 0) return result;

@@ -70,10 +70,11 @@ Features::Descriptors simplifiedHistograms(const std::vector<Vector3f>& points,
  * roots of the entries compare better than the entries: few full bins do not outshout the rest. */
 Features::Descriptors fastHistograms(const Features::Descriptors& simplified,
                                      const std::vector<NeighborPair>& pairs) {
+  constexpr float kNearest2 = 1e-6f;  // metres²; nearer ones would drown the rest, or overflow
   Features::Descriptors sums =
       Features::Descriptors::Zero(Features::kDimensions, simplified.cols());
   for (const NeighborPair& pair : pairs) {
-    const float weight = 1.0f / pair.squared_distance;
+    const float weight = 1.0f / std::max(pair.squared_distance, kNearest2);
     sums.col(pair.i) += weight * simplified.col(pair.j);
     sums.col(pair.j) += weight * simplified.col(pair.i);
   }

@@ -12,8 +12,6 @@ namespace lamp {
 
 namespace {
 
-using Eigen::Vector3f;
-
 /** Coordinates of matches, one array a coordinate, for loops over all of them. */
 struct MatchColumns {
   explicit MatchColumns(const std::vector<Match>& matches, const Features& source,
@@ -58,7 +56,7 @@ Whereabouts whereabouts(const Features& source, const UncertainPose& guess,
                         const ConsistencyOptions& options) {
   const double quantile = chiSquareQuantile(options.guess_probability, 3);
   Whereabouts result;
-  for (const Vector3f& point : source.points) {
+  for (const Eigen::Vector3f& point : source.points) {
     // T Exp(d) p moves by R (v - p x w), d = (v, w).
     Eigen::Matrix<double, 3, 6> J;
     J << Eigen::Matrix3d::Identity(), -skew(point.cast<double>());
@@ -68,6 +66,30 @@ Whereabouts whereabouts(const Features& source, const UncertainPose& guess,
         static_cast<float>(std::sqrt(quantile * variance) + 2 * options.noise_bound_m));
   }
   return result;
+}
+
+std::vector<PointPair> pointPairs(const std::vector<Match>& matches, const Features& source,
+                                  const Features& target) {
+  std::vector<PointPair> pairs;
+  pairs.reserve(matches.size());
+  for (const Match& match : matches)
+    pairs.push_back(
+        {source.points[match.source].cast<double>(), target.points[match.target].cast<double>()});
+  return pairs;
+}
+
+/** Counts the matches that the pose brings within a distance. \param[in,out] left these are not
+ * left for another pose. */
+GlobalPose withInliers(const Pose3& pose, const std::vector<PointPair>& pairs, double distance_m,
+                       std::vector<bool>& left) {
+  GlobalPose found{pose, 0, 0};
+  for (size_t m = 0; m < pairs.size(); ++m) {
+    if ((pairs[m].target - pose * pairs[m].source).norm() > distance_m) continue;
+    left[m] = false;
+    ++found.inliers;
+  }
+  found.inlier_ratio = static_cast<double>(found.inliers) / static_cast<double>(pairs.size());
+  return found;
 }
 
 }  // namespace
@@ -93,30 +115,21 @@ std::vector<GlobalPose> alignByConsistency(const Features& source, const Feature
   std::optional<Whereabouts> within;
   if (guess) within = whereabouts(source, *guess, options);
   const std::vector<Match> matches = mutualMatches(source, target, options.match_rank, within);
+  const std::vector<PointPair> pairs = pointPairs(matches, source, target);
   const ConsistencyGraph graph = consistencyGraph(matches, source, target, options);
   std::vector<bool> left(matches.size(), true);
   std::vector<GlobalPose> poses;
   while (static_cast<int>(poses.size()) < options.max_hypotheses) {
     const std::vector<uint32_t> clique = maximumClique(graph, left);
     if (clique.size() < static_cast<size_t>(options.min_inliers)) break;
-    std::vector<PointPair> pairs;
+    std::vector<PointPair> consistent;
     for (const uint32_t m : clique) {
       left[m] = false;
-      pairs.push_back({source.points[matches[m].source].cast<double>(),
-                       target.points[matches[m].target].cast<double>()});
+      consistent.push_back(pairs[m]);
     }
-    const auto pose = robustPose(pairs, options.noise_bound_m, options.upright);
+    const auto pose = robustPose(consistent, options.noise_bound_m, options.upright);
     if (!pose) continue;
-    GlobalPose found{*pose, 0, 0};
-    const Eigen::Isometry3f T = pose->cast<float>();
-    for (size_t m = 0; m < matches.size(); ++m) {
-      const Vector3f error =
-          target.points[matches[m].target] - T * source.points[matches[m].source];
-      if (error.norm() > static_cast<float>(2 * options.noise_bound_m)) continue;
-      left[m] = false;
-      ++found.inliers;
-    }
-    found.inlier_ratio = static_cast<double>(found.inliers) / static_cast<double>(matches.size());
+    const GlobalPose found = withInliers(*pose, pairs, 2 * options.noise_bound_m, left);
     if (found.inliers >= static_cast<size_t>(options.min_inliers)) poses.push_back(found);
   }
   std::stable_sort(poses.begin(), poses.end(),

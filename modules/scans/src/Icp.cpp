@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "IcpLinearization.h"
+
 namespace lamp {
 
 namespace {
@@ -19,112 +21,6 @@ constexpr size_t kMinMatches = 10;
 constexpr size_t kCoarsePoints = 500, kFinePoints = 1500;
 /** Steps below so many tolerances end the coarse iterations. */
 constexpr double kCoarseTolerance = 10;
-
-/** Normal equations of one Gauss-Newton step, for a motion about the pivot in the target's axes. */
-struct NormalEquations {
-  Matrix6d H = Matrix6d::Zero();
-  Vector6d g = Vector6d::Zero();
-  Matrix6d point_to_plane = Matrix6d::Zero();
-  double weights = 0;
-  double squares = 0;  ///< weighted squared distances to the planes, metres²
-  size_t matches = 0;
-};
-
-double gemanMcClure(double squared_residual, double kernel_m) {
-  const double s = kernel_m * kernel_m;
-  return (s / (s + squared_residual)) * (s / (s + squared_residual));
-}
-
-/** The upper triangle only. */
-void addOuterProduct(double weight, const Vector6d& j, Matrix6d& sum) {
-  for (int column = 0; column < 6; ++column) {
-    const double scaled = weight * j[column];
-    for (int row = 0; row <= column; ++row) sum(row, column) += scaled * j[row];
-  }
-}
-
-Matrix6d symmetric(const Matrix6d& upper) {
-  return upper.selfadjointView<Eigen::Upper>();
-}
-
-/** Sums the normal equations over matched points. */
-class Linearization {
- public:
-  Linearization(IcpMetric metric, double plane_thickness, double kernel_m)
-      : plane_to_plane_(metric == IcpMetric::kPlaneToPlane),
-        thickness_(plane_thickness),
-        kernel_m_(kernel_m) {}
-
-  /** \param lever from the pivot to the source point; \param r from the target to the source point;
-   *  \param n target's normal; \param m source's normal; all in the target's axes. */
-  void add(const Vector3d& lever, const Vector3d& r, const Vector3d& n, const Vector3d& m) {
-    const double c = n.dot(m);
-    if (c < 0) return;  // two sides of a wall, or a floor and a ceiling
-
-    const Vector6d jn = derivative(n, lever);
-    const double distance = n.dot(r);
-    double weight;
-    if (plane_to_plane_) {
-      // 2 e C⁻¹ of C = 2 - (1 - e)(n nᵀ + m mᵀ), in closed form: C's eigenvectors are n + m and
-      // n - m. Scaled so that a distance across parallel surfaces counts once.
-      const double k = 1.0 - thickness_;
-      const Vector3d a = n + m, b = n - m;
-      const double wa = thickness_ * k / (2.0 * (2.0 - k * (1.0 + c)));
-      const double wb = thickness_ * k / (2.0 * (2.0 - k * (1.0 - c)));
-      const double ra = a.dot(r), rb = b.dot(r);
-      weight = gemanMcClure(thickness_ * r.squaredNorm() + wa * ra * ra + wb * rb * rb, kernel_m_);
-      const Vector6d ja = derivative(a, lever), jb = derivative(b, lever);
-      addOuterProduct(weight * wa, ja, sum_.H);
-      addOuterProduct(weight * wb, jb, sum_.H);
-      sum_.g += weight * (wa * ra * ja + wb * rb * jb);
-      addIsotropic(weight * thickness_, lever, r);
-    } else {
-      weight = gemanMcClure(distance * distance, kernel_m_);
-      sum_.g += weight * distance * jn;
-    }
-    addOuterProduct(weight, jn, sum_.point_to_plane);
-    sum_.weights += weight;
-    sum_.squares += weight * distance * distance;
-    ++sum_.matches;
-  }
-
-  NormalEquations result() const {
-    NormalEquations result = sum_;
-    result.point_to_plane = symmetric(sum_.point_to_plane);
-    result.H = plane_to_plane_ ? symmetric(sum_.H) : result.point_to_plane;
-    if (!plane_to_plane_) return result;
-    // The isotropic part, J = [1, -lever x]: from the sums of lever and of lever leverᵀ.
-    const Matrix3d L = skew(levers_);
-    result.H.topLeftCorner<3, 3>() += isotropic_ * Matrix3d::Identity();
-    result.H.topRightCorner<3, 3>() -= L;
-    result.H.bottomLeftCorner<3, 3>() += L;
-    result.H.bottomRightCorner<3, 3>() +=
-        lever_squares_.trace() * Matrix3d::Identity() - lever_squares_;
-    return result;
-  }
-
- private:
-  static Vector6d derivative(const Vector3d& direction, const Vector3d& lever) {
-    Vector6d j;
-    j << direction, lever.cross(direction);
-    return j;
-  }
-
-  void addIsotropic(double weight, const Vector3d& lever, const Vector3d& r) {
-    isotropic_ += weight;
-    levers_ += weight * lever;
-    lever_squares_.noalias() += weight * lever * lever.transpose();
-    sum_.g.head<3>() += weight * r;
-    sum_.g.tail<3>() += weight * lever.cross(r);
-  }
-
-  const bool plane_to_plane_;
-  const double thickness_, kernel_m_;
-  NormalEquations sum_;
-  double isotropic_ = 0;
-  Vector3d levers_ = Vector3d::Zero();
-  Matrix3d lever_squares_ = Matrix3d::Zero();
-};
 
 /** The pairs of an alignment as it goes on: the partner of the last iteration bounds the search for
  * the next one. */
@@ -222,6 +118,48 @@ double rmsDistance(const PreparedScan& scan, const Vector3d& center) {
   return std::sqrt(sum / std::max<double>(1.0, static_cast<double>(scan.own().size())));
 }
 
+void describe(const NormalEquations& equations, IcpResult& result) {
+  result.matches = equations.matches;
+  result.information = equations.point_to_plane;
+  result.weights = equations.weights;
+  result.residual_m = std::sqrt(equations.squares / std::max(equations.weights, 1e-12));
+}
+
+/** From coarse to fine: how far partners may lie apart, and how many points take part. */
+class Schedule {
+ public:
+  Schedule(const IcpOptions& options, size_t points)
+      : options_(options),
+        distance_(std::max(options.start_correspondence_m, options.correspondence_m)),
+        stride_(std::max<size_t>(1, points / kCoarsePoints)),
+        fine_stride_(std::max<size_t>(1, points / kFinePoints)) {}
+
+  double distance() const { return distance_; }
+  size_t stride() const { return stride_; }
+  /** Narrows with the search distance: coarse matches still pull, fine ones decide. */
+  double kernel() const { return options_.kernel_m * distance_ / options_.correspondence_m; }
+
+  /** Goes on to the next iteration. \return whether the last step was small enough for none. */
+  bool endsAfter(const Vector6d& step) {
+    const double share_of_tolerance =
+        std::max(step.head<3>().norm() / options_.translation_tolerance_m,
+                 step.tail<3>().norm() / (options_.rotation_tolerance_deg * M_PI / 180.0));
+    if (distance_ > options_.correspondence_m)
+      distance_ = std::max(options_.correspondence_m, distance_ * options_.shrink_factor);
+    else if (stride_ == fine_stride_)
+      return share_of_tolerance < 1;
+    else if (share_of_tolerance < kCoarseTolerance)
+      stride_ = fine_stride_;
+    return false;
+  }
+
+ private:
+  const IcpOptions& options_;
+  double distance_;
+  size_t stride_;
+  const size_t fine_stride_;
+};
+
 }  // namespace
 
 void IcpOptions::visit(OptionVisitor& v) {
@@ -248,39 +186,24 @@ IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose
   const bool planar = source.planar() && target.planar();
   const Vector3d source_centroid = centroid(source);
   result.radius_m = rmsDistance(source, source_centroid);
+  // Many points of the one may match the same few of the other: that says nothing of the pose.
+  if (std::min(source.own().size(), target.size()) < kMinMatches) return result;
   Matcher matcher(source, target);
-  double distance = std::max(options.start_correspondence_m, options.correspondence_m);
-  const size_t fine_stride = std::max<size_t>(1, source.own().size() / kFinePoints);
-  size_t stride = std::max<size_t>(1, source.own().size() / kCoarsePoints);
-  while (result.iterations < options.max_iterations) {
-    // The kernel narrows with the search distance: coarse matches still pull, fine ones decide.
-    const double kernel = options.kernel_m * distance / options.correspondence_m;
+  Schedule schedule(options, source.own().size());
+  while (!result.converged && result.iterations < options.max_iterations) {
     result.pivot = result.target_T_source * source_centroid;
-    const NormalEquations equations =
-        matcher.linearize(result.target_T_source, result.pivot, distance, stride,
-                          Linearization(metric, options.plane_thickness, kernel));
+    const NormalEquations equations = matcher.linearize(
+        result.target_T_source, result.pivot, schedule.distance(), schedule.stride(),
+        Linearization(metric, options.plane_thickness, schedule.kernel()));
     ++result.iterations;
-    result.matches = equations.matches;
-    result.information = equations.point_to_plane;
-    result.weights = equations.weights;
-    result.residual_m = std::sqrt(equations.squares / std::max(equations.weights, 1e-12));
+    describe(equations, result);
     if (equations.matches < kMinMatches) return result;
     const Vector6d step = solveStep(equations, planar);
     if (!step.allFinite()) return result;
     result.target_T_source = movedAbout(result.pivot, step, result.target_T_source);
-    const double share_of_tolerance =
-        std::max(step.head<3>().norm() / options.translation_tolerance_m,
-                 step.tail<3>().norm() / (options.rotation_tolerance_deg * M_PI / 180.0));
-    if (distance > options.correspondence_m) {
-      distance = std::max(options.correspondence_m, distance * options.shrink_factor);
-    } else if (stride == fine_stride && share_of_tolerance < 1) {
-      result.converged = true;
-      result.patches = matcher.patches();
-      return result;
-    } else if (share_of_tolerance < kCoarseTolerance) {
-      stride = fine_stride;
-    }
+    result.converged = schedule.endsAfter(step);
   }
+  if (result.converged) result.patches = matcher.patches();
   return result;
 }
 

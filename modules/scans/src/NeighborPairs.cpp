@@ -1,7 +1,6 @@
 #include "NeighborPairs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace lamp {
@@ -10,50 +9,70 @@ namespace {
 
 using Eigen::Vector3f;
 
-/** A cell of the grid, as one number that grows with x, then y, then z. */
+/** A cell of the grid, as one number that grows with x, then y, then z. Unsigned: of grids too
+ * large for it numbers repeat, which costs time only, since distances are checked. */
 using CellNumber = uint64_t;
-constexpr int kBitsPerAxis = 21;
+constexpr CellNumber kStepZ = 1, kStepY = CellNumber{1} << 21, kStepX = CellNumber{1} << 42;
+
+/** The points' places, and their cells' numbers, sorted by those. */
+struct Grid {
+  std::vector<uint32_t> order;
+  std::vector<CellNumber> numbers;
+};
+
+std::vector<CellNumber> cellNumbers(const std::vector<Vector3f>& points, double edge) {
+  Vector3f low = points.front();
+  for (const Vector3f& p : points) low = low.cwiseMin(p);
+  std::vector<CellNumber> numbers;
+  numbers.reserve(points.size());
+  for (const Vector3f& p : points) {
+    // From 1, so that neighbours have numbers, too.
+    const Eigen::Array<CellNumber, 3, 1> cell =
+        ((p.cast<double>() - low.cast<double>()) / edge).array().cast<CellNumber>() + CellNumber{1};
+    numbers.push_back(cell.x() * kStepX + cell.y() * kStepY + cell.z() * kStepZ);
+  }
+  return numbers;
+}
+
+Grid sorted(const std::vector<CellNumber>& numbers) {
+  Grid grid;
+  grid.order.resize(numbers.size());
+  std::iota(grid.order.begin(), grid.order.end(), 0u);
+  std::sort(grid.order.begin(), grid.order.end(), [&](uint32_t a, uint32_t b) {
+    return std::pair(numbers[a], a) < std::pair(numbers[b], b);
+  });
+  grid.numbers.reserve(numbers.size());
+  for (const uint32_t i : grid.order) grid.numbers.push_back(numbers[i]);
+  return grid;
+}
+
+/** Pairs of point i with later points in three cells in a row along z, which are one range of the
+ * order. */
+void pairWithRow(const std::vector<Vector3f>& points, const Grid& grid, uint32_t i,
+                 CellNumber middle, float squared_radius, std::vector<NeighborPair>& pairs) {
+  const auto first = std::lower_bound(grid.numbers.begin(), grid.numbers.end(), middle - kStepZ);
+  for (auto k = static_cast<size_t>(first - grid.numbers.begin());
+       k < grid.numbers.size() && grid.numbers[k] <= middle + kStepZ; ++k) {
+    const uint32_t j = grid.order[k];
+    if (j <= i) continue;
+    const float squared = (points[j] - points[i]).squaredNorm();
+    if (squared <= squared_radius && squared > 0) pairs.push_back({i, j, squared});
+  }
+}
 
 }  // namespace
 
 std::vector<NeighborPair> neighborPairs(const std::vector<Vector3f>& points, double radius) {
   std::vector<NeighborPair> pairs;
   if (points.empty()) return pairs;
-  Vector3f low = points.front();
-  for (const Vector3f& p : points) low = low.cwiseMin(p);
-  const auto r = static_cast<float>(radius);
-  const auto number = [](const Eigen::Matrix<int64_t, 3, 1>& cell) {
-    return static_cast<CellNumber>((cell.x() << (2 * kBitsPerAxis)) + (cell.y() << kBitsPerAxis) +
-                                   cell.z());
-  };
-  std::vector<Eigen::Matrix<int64_t, 3, 1>> cells(points.size());
-  for (size_t i = 0; i < points.size(); ++i)
-    cells[i] = ((points[i] - low) / r).array().floor().cast<int64_t>() + 1;
-  std::vector<uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return std::pair(number(cells[a]), a) < std::pair(number(cells[b]), b);
-  });
-  std::vector<CellNumber> numbers(points.size());
-  for (size_t k = 0; k < order.size(); ++k) numbers[k] = number(cells[order[k]]);
-
-  // Three cells in a row along z are one range of the order.
-  const auto pairWithRow = [&](uint32_t i, const Eigen::Matrix<int64_t, 3, 1>& middle) {
-    const CellNumber row = number(middle);
-    auto k = std::lower_bound(numbers.begin(), numbers.end(), row - 1) - numbers.begin();
-    for (; k < static_cast<std::ptrdiff_t>(numbers.size()) &&
-           numbers[static_cast<size_t>(k)] <= row + 1;
-         ++k) {
-      const uint32_t j = order[static_cast<size_t>(k)];
-      if (j <= i) continue;
-      const float squared = (points[j] - points[i]).squaredNorm();
-      if (squared <= r * r && squared > 0) pairs.push_back({i, j, squared});
-    }
-  };
-  for (const uint32_t i : order)
-    for (int64_t dx = -1; dx <= 1; ++dx)
-      for (int64_t dy = -1; dy <= 1; ++dy)
-        pairWithRow(i, cells[i] + Eigen::Matrix<int64_t, 3, 1>(dx, dy, 0));
+  // A little wider, so that what rounding brings within the radius is in the next cell at most.
+  const std::vector<CellNumber> numbers = cellNumbers(points, radius * (1 + 1e-5));
+  const Grid grid = sorted(numbers);
+  const auto squared_radius = static_cast<float>(radius * radius);
+  for (const uint32_t i : grid.order)
+    for (const CellNumber x : {numbers[i] - kStepX, numbers[i], numbers[i] + kStepX})
+      for (const CellNumber row : {x - kStepY, x, x + kStepY})
+        pairWithRow(points, grid, i, row, squared_radius, pairs);
   return pairs;
 }
 

@@ -77,6 +77,7 @@ Matrix3d robustRotation(const std::vector<PointPair>& vectors, double noise_m, b
 }
 
 double adaptiveVote(std::vector<double> measurements, double noise) {
+  if (measurements.empty()) return 0;
   std::sort(measurements.begin(), measurements.end());
   size_t best_first = 0, best_last = 0;
   for (size_t first = 0, last = 0; last < measurements.size(); ++last) {

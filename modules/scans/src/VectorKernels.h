@@ -4,9 +4,11 @@
 
 namespace lamp {
 
-/** Compiles a function for several instruction sets; the program takes the best one that the
- * machine has. Not under sanitizers, which cannot run before the choice is made. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__)
+/** Compiles a function for several instruction sets; the loader takes the best one that the
+ * machine has. GCC with glibc only: others lack the attribute, these values of it, or the loader's
+ * part. Not under sanitizers, which cannot run before the choice is made. */
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define LAMP_FOR_SEVERAL_INSTRUCTION_SETS \
   __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
 #else

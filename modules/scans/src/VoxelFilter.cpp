@@ -8,6 +8,8 @@ namespace lamp {
 
 namespace {
 
+constexpr float kFarthest_m = 1e6f;
+
 struct Cell {
   int x, y, z;
   uint8_t sensor;
@@ -39,6 +41,7 @@ Scan voxelFilter(const Scan& scan, double leaf_m) {
   place.reserve(scan.size());
   std::vector<Sum> sums;
   for (size_t i = 0; i < scan.size(); ++i) {
+    if (!(scan.points[i].norm() < kFarthest_m)) continue;  // NaN, too
     const Eigen::Vector3d cell = (scan.points[i].cast<double>() / leaf_m).array().floor();
     const auto [found, is_new] =
         place.emplace(Cell{static_cast<int>(cell.x()), static_cast<int>(cell.y()),

@@ -4,126 +4,116 @@
 
 #include <random>
 
-#include "TestMotions.h"
-#include "TestRooms.h"
-#include "lamp/scans/SampleConsensus.h"
-
 namespace lamp {
 namespace {
 
-using namespace test;
+using Eigen::Vector3f;
 
-/** A hall of 24 x 16 x 4 m with blocks of all sizes in it, so that no corner is like another. */
-std::vector<Eigen::Vector3f> hall(unsigned seed) {
-  std::mt19937 layout(11), random(seed);
-  std::uniform_real_distribution<float> unit(0, 1);
-  std::vector<Eigen::Vector3f> points;
-  const auto box = [&](Eigen::Vector3f low, Eigen::Vector3f size) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (const float side : {0.0f, 1.0f}) {
-        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-        const int count = static_cast<int>(6 * size[u] * size[v]);
-        for (int i = 0; i < count; ++i) {
-          Eigen::Vector3f p = low;
-          p[axis] += side * size[axis];
-          p[u] += unit(random) * size[u];
-          p[v] += unit(random) * size[v];
-          points.push_back(p);
-        }
-      }
-  };
-  box({-12, -8, -1}, {24, 16, 4});
-  for (int i = 0; i < 10; ++i) {
-    const float x = 20 * unit(layout) - 10, y = 12 * unit(layout) - 6;
-    if (std::hypot(x, y) < 3) continue;
-    box({x, y, -1}, {0.8f + 2 * unit(layout), 0.8f + 2 * unit(layout), 0.8f + 2.5f * unit(layout)});
+/** A hall of 30 x 20 x 6 m with boxes of all sizes, which look different from everywhere. */
+Cloud hall(const Pose3& sensor, unsigned layout, unsigned seed) {
+  std::mt19937 design(layout), random(seed);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  std::normal_distribution<float> noise(0.0f, 0.01f);
+  std::vector<Eigen::AlignedBox3f> boxes = {{Vector3f(-15, -10, 0), Vector3f(15, 10, 6)}};
+  for (int k = 0; k < 14; ++k) {
+    const float x = -14 + 24 * unit(design), y = -9 + 15 * unit(design);
+    const Vector3f size(1 + 3 * unit(design), 1 + 3 * unit(design), 0.5f + 4 * unit(design));
+    boxes.emplace_back(Vector3f(x, y, 0), Vector3f(x, y, 0) + size);
   }
-  return points;
+  const Eigen::Isometry3f sensor_T_hall = sensor.inverse().cast<float>();
+  std::vector<Vector3f> points;
+  for (int i = 0; i < 12000; ++i) {
+    const auto& box = boxes[i % 3 == 0 ? 0 : 1 + static_cast<size_t>(i) % (boxes.size() - 1)];
+    Vector3f p =
+        box.min() + box.sizes().cwiseProduct(Vector3f(unit(random), unit(random), unit(random)));
+    const Eigen::Index axis = static_cast<Eigen::Index>(3 * unit(random)) % 3;
+    p[axis] = unit(random) < 0.5f ? box.min()[axis] : box.max()[axis];
+    points.push_back(sensor_T_hall * p + Vector3f(noise(random), noise(random), noise(random)));
+  }
+  return cloudSeenFromOrigin(std::move(points));
 }
 
-struct HallPair {
-  explicit HallPair(const Pose3& target_T_source)
-      : truth(target_T_source),
-        target(prepareScan(hall(1), 10, false)),
-        source(prepareScan(moved(hall(2), truth.inverse()), 10, false)) {}
-  Pose3 truth;
-  PreparedScanPtr target, source;
+Features hallFeatures(const Pose3& sensor, unsigned layout, unsigned seed) {
+  return computeFeatures(hall(sensor, layout, seed), {});
+}
+
+Pose3 sensorAt(double x, double y, double yaw) {
+  Pose3 pose = planarPose(x, y, yaw);
+  pose.translation().z() = 1.5;
+  return pose;
+}
+
+void expectNear(const Pose3& found, const Pose3& truth) {
+  const Pose3 error = truth.inverse() * found;
+  EXPECT_LT(error.translation().norm(), 0.6);
+  EXPECT_LT(rotationAngle(error), 4 * M_PI / 180);
+}
+
+class AlignByConsistency : public testing::TestWithParam<bool> {
+ protected:
+  ConsistencyOptions options() const {
+    ConsistencyOptions options;
+    options.upright = GetParam();
+    return options;
+  }
 };
+INSTANTIATE_TEST_SUITE_P(FreeAndUpright, AlignByConsistency, testing::Bool());
 
-TEST(AlignByConsistency, FindsAnyYawWithoutAGuess) {
-  for (const double yaw : {0.0, 1.5, 3.1, -2.0}) {
-    const HallPair pair(planarPose(1.0, -0.8, yaw));
+TEST_P(AlignByConsistency, FindsThePoseAtAnyYaw) {
+  const Pose3 at_target = sensorAt(1, 0, 0.3);
+  const Features target = hallFeatures(at_target, 1, 1);
+  for (int k = 0; k < 6; ++k) {
+    const Pose3 at_source = sensorAt(-2, 1, 0.2 + k * M_PI / 3);
     const auto poses =
-        alignByConsistency(pair.source->features(), pair.target->features(), std::nullopt, {});
-    ASSERT_FALSE(poses.empty()) << yaw;
-    const Pose3 error = pair.truth.inverse() * poses.front().target_T_source;
-    EXPECT_LT(error.translation().norm(), 0.5) << yaw;
-    EXPECT_LT(rotationAngle(error), 4 * kDegree) << yaw;
-    EXPECT_GE(poses.front().inliers, 8u);
-    EXPECT_GT(poses.front().inlier_ratio, 0.0);
-    EXPECT_LE(poses.front().inlier_ratio, 1.0);
+        alignByConsistency(hallFeatures(at_source, 1, 2), target, std::nullopt, options());
+    ASSERT_FALSE(poses.empty()) << k;
+    expectNear(poses.front().target_T_source, at_target.inverse() * at_source);
+    EXPECT_GT(poses.front().inlier_ratio, 0);
+    EXPECT_LE(poses.front().inlier_ratio, 1);
+    for (size_t i = 1; i < poses.size(); ++i) EXPECT_LE(poses[i].inliers, poses[i - 1].inliers);
+    if (GetParam()) {
+      EXPECT_NEAR(poses.front().target_T_source.linear()(2, 2), 1, 1e-12);
+    }
   }
 }
 
-TEST(AlignByConsistency, BackIsTheInverseOfForth) {
-  const HallPair pair(planarPose(1.0, -0.8, 2.0));
-  const Features &s = pair.source->features(), &t = pair.target->features();
-  const auto forth = alignByConsistency(s, t, std::nullopt, {});
-  const auto back = alignByConsistency(t, s, std::nullopt, {});
-  ASSERT_FALSE(forth.empty() || back.empty());
-  const Pose3 both = forth.front().target_T_source * back.front().target_T_source;
-  EXPECT_LT(both.translation().norm(), 0.6);
-  EXPECT_LT(rotationAngle(both), 5 * kDegree);
+TEST_P(AlignByConsistency, BothDirectionsAgreeAndRunsDoNotDiffer) {
+  const Features a = hallFeatures(sensorAt(1, 0, 0.3), 1, 1);
+  const Features b = hallFeatures(sensorAt(-2, 1, 2), 1, 2);
+  const auto forth = alignByConsistency(b, a, std::nullopt, options()),
+             back = alignByConsistency(a, b, std::nullopt, options());
+  ASSERT_TRUE(!forth.empty() && !back.empty());
+  expectNear(back.front().target_T_source, forth.front().target_T_source.inverse());
+  const auto again = alignByConsistency(b, a, std::nullopt, options());
+  ASSERT_EQ(again.size(), forth.size());
+  for (size_t i = 0; i < again.size(); ++i)
+    EXPECT_EQ(again[i].target_T_source.matrix(), forth[i].target_T_source.matrix());
 }
 
-TEST(AlignByConsistency, AGuessRulesOutWhatIsTooFarFromIt) {
-  const HallPair pair(planarPose(1.0, -0.8, 2.0));
-  const UncertainPose right{pair.truth, 1e-2 * Matrix6d::Identity()};
-  UncertainPose wrong = right;
-  wrong.target_T_source.translation() += Eigen::Vector3d(8, 5, 0);
-  const Features &s = pair.source->features(), &t = pair.target->features();
-  EXPECT_FALSE(alignByConsistency(s, t, right, {}).empty());
-  for (const GlobalPose& pose : alignByConsistency(s, t, wrong, {}))
-    EXPECT_GT((pose.target_T_source.translation() - pair.truth.translation()).norm(), 3.0);
+TEST_P(AlignByConsistency, UnrelatedCloudsAgreeOnLittle) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> anywhere(-8, 8);
+  std::vector<Vector3f> points;
+  for (int i = 0; i < 4000; ++i)
+    points.emplace_back(anywhere(random), anywhere(random), anywhere(random));
+  const Features noise = computeFeatures(cloudSeenFromOrigin(points), {});
+  const Features target = hallFeatures(sensorAt(1, 0, 0), 1, 1);
+  const auto right =
+      alignByConsistency(hallFeatures(sensorAt(0, 1, 1), 1, 2), target, std::nullopt, options());
+  ASSERT_FALSE(right.empty());
+  for (const GlobalPose& pose : alignByConsistency(noise, target, std::nullopt, options()))
+    EXPECT_LT(pose.inliers, right.front().inliers / 3);
 }
 
-TEST(AlignByConsistency, UprightTurnsAboutTheVerticalOnly) {
-  const HallPair pair(planarPose(1.0, -0.8, 2.0));
-  ConsistencyOptions options;
-  options.upright = true;
-  const auto poses =
-      alignByConsistency(pair.source->features(), pair.target->features(), std::nullopt, options);
-  ASSERT_FALSE(poses.empty());
-  EXPECT_NEAR(poses.front().target_T_source.linear()(2, 2), 1.0, 1e-9);
-}
-
-TEST(AlignByConsistency, HasNothingToSayOfTooLittle) {
-  const HallPair pair(Pose3::Identity());
-  for (const auto& points : std::vector<std::vector<Eigen::Vector3f>>{
-           {},
-           {{1, 2, 3}},
-           {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
-           std::vector<Eigen::Vector3f>(100, Eigen::Vector3f(1, 1, 1))}) {
-    const auto scan = prepareScan(points, 10, false);
-    EXPECT_TRUE(
-        alignByConsistency(scan->features(), pair.target->features(), std::nullopt, {}).empty());
-    EXPECT_TRUE(
-        alignByConsistency(pair.source->features(), scan->features(), std::nullopt, {}).empty());
-    EXPECT_FALSE(alignBySamples(scan->features(), *pair.target, {}));
-  }
-}
-
-TEST(AlignBySamples, FindsTheHallAndRepeatsItself) {
-  const HallPair pair(planarPose(1.0, -0.8, 2.0));
-  SampleConsensusOptions options;
-  options.iterations = 2000;
-  const auto pose = alignBySamples(pair.source->features(), *pair.target, options);
-  ASSERT_TRUE(pose);
-  const Pose3 error = pair.truth.inverse() * pose->target_T_source;
-  EXPECT_LT(error.translation().norm(), 1.5);
-  EXPECT_LT(rotationAngle(error), 15 * kDegree);
-  const auto again = alignBySamples(pair.source->features(), *pair.target, options);
-  EXPECT_EQ(again->target_T_source.matrix(), pose->target_T_source.matrix());
+TEST_P(AlignByConsistency, RefusesWithTooFewInliers) {
+  const Features a = hallFeatures(sensorAt(1, 0, 0), 1, 1), none = computeFeatures({}, {});
+  const Features b = hallFeatures(sensorAt(0, 1, 1), 1, 2);
+  EXPECT_TRUE(alignByConsistency(a, none, std::nullopt, options()).empty());
+  EXPECT_TRUE(alignByConsistency(none, a, std::nullopt, options()).empty());
+  EXPECT_TRUE(alignByConsistency(none, none, std::nullopt, options()).empty());
+  ConsistencyOptions strict = options();
+  strict.min_inliers = 100000;
+  EXPECT_TRUE(alignByConsistency(b, a, std::nullopt, strict).empty());
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "TestRooms.h"
 
 namespace lamp {
@@ -32,6 +34,13 @@ TEST(VoxelFilter, DoesNotMixSensors) {
   const Scan filtered = voxelFilter(scan, 1.0);
   EXPECT_EQ(filtered.sensor, (std::vector<uint8_t>{0, 1}));
   EXPECT_EQ(filtered.sensors.size(), 2u);
+}
+
+TEST(VoxelFilter, LeavesOutWhatIsNoPlace) {
+  const Scan filtered = voxelFilter(
+      scanOf({{NAN, 0, 0}, {1, 2, 3}, {0, INFINITY, 0}, {0, 0, -3e38f}, {2e6f, 0, 0}}), 0.1);
+  ASSERT_EQ(filtered.size(), 1u);
+  EXPECT_TRUE(filtered.points[0].isApprox(Eigen::Vector3f(1, 2, 3)));
 }
 
 TEST(VoxelFilter, NoPointsGiveNoPoints) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,7 @@ class ConsistencyGraph {
 
   size_t size() const { return vertices_; }
   size_t words() const { return words_; }
+  /** Two different vertices: a loop would be a clique without end. */
   void connect(size_t a, size_t b) {
     set(a, b);
     set(b, a);
@@ -31,9 +33,9 @@ struct CliqueSearch {
   size_t max_branches = 500;  ///< after so many the best clique so far is returned
 };
 
-/** A maximum clique among the vertices that are `allowed`, ascending; exact unless the search ran
- * out of branches. A greedy clique from the vertices of highest core number comes first; it then
- * bounds the search (Rossi et al. 2014, as in TEASER++). */
+/** A maximum clique among the vertices that are `allowed` (one entry a vertex), ascending; exact
+ * unless the search ran out of branches. A greedy clique from the vertices of highest core number
+ * comes first; it then bounds the search (Rossi et al. 2014, as in TEASER++). */
 std::vector<uint32_t> maximumClique(const ConsistencyGraph& graph, const std::vector<bool>& allowed,
                                     const CliqueSearch& search = {});
 

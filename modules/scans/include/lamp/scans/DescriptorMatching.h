@@ -27,7 +27,7 @@ struct Whereabouts {
  * mutual nearest neighbours. Sorted by source, then target.
  * \param whereabouts if given, others than the keypoints there are not looked at. */
 std::vector<Match> mutualMatches(const Features& source, const Features& target, int rank,
-                                 const std::optional<Whereabouts>& whereabouts);
+                                 const std::optional<Whereabouts>& whereabouts = {});
 
 /** The `count` target keypoints that look most like each keypoint of the source, the best first:
  * column k holds those of source keypoint k. */

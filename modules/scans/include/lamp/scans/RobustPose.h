@@ -21,7 +21,8 @@ struct PointPair {
 Eigen::Matrix3d robustRotation(const std::vector<PointPair>& vectors, double noise_m, bool upright);
 
 /** The value that most of the measurements agree on within `noise`: the mean of the largest set of
- * measurements that lie in an interval of `2 noise` (adaptive voting, TEASER section V). */
+ * measurements that lie in an interval of `2 noise` (adaptive voting, TEASER section V); 0 if there
+ * are none. */
 double adaptiveVote(std::vector<double> measurements, double noise);
 
 /** target_T_source from pairs of points of which some are wrong: rotation from the differences of
