@@ -113,7 +113,7 @@ TEST(Icp, InformationIsTheSumOfPointToPlaneJacobians) {
 TEST(Icp, InformationIsAboutThePivotInTheTargetsAxes) {
   // The same plane, seen from a frame that is turned and 50 m away: the pivot goes with it.
   const Pose3 target_T_source = expSE3(tangent(50, -20, 5, 0.1, 0.2, 1.0));
-  const auto plane = roomPoints(3000, 0.0f, 1);
+  const auto plane = roomPoints(1400, 0.0f, 1);
   const auto target = prepareScan(plane, 10, false);
   Cloud cloud = cloudSeenFromOrigin(moved(plane, target_T_source.inverse()));
   cloud.viewpoints = {(target_T_source.inverse().translation()).cast<float>()};
@@ -124,7 +124,7 @@ TEST(Icp, InformationIsAboutThePivotInTheTargetsAxes) {
   EXPECT_LT((far.pivot - same.pivot).norm(), 1e-3);
   EXPECT_LT((far.information - same.information).norm(), 0.01 * same.information.norm());
   EXPECT_NEAR(far.radius_m, same.radius_m, 1e-3);
-  EXPECT_GT(far.patches, 50);
+  EXPECT_GT(far.patches, 20);
 }
 
 TEST_P(IcpMetrics, WorksTenKilometresFromTheOrigin) {
