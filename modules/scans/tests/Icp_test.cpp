@@ -111,13 +111,18 @@ TEST(Icp, InformationIsTheSumOfPointToPlaneJacobians) {
 }
 
 TEST(Icp, InformationIsAboutThePivotInTheTargetsAxes) {
-  // The same plane, seen from a frame that is turned and 50 m away: the pivot goes with it.
+  // The same room, seen from a frame that is turned and 50 m away: the pivot goes with it.
   const Pose3 target_T_source = expSE3(tangent(50, -20, 5, 0.1, 0.2, 1.0));
-  const auto plane = roomPoints(1400, 0.0f, 1);
-  const auto target = prepareScan(plane, 10, false);
-  Cloud cloud = cloudSeenFromOrigin(moved(plane, target_T_source.inverse()));
-  cloud.viewpoints = {(target_T_source.inverse().translation()).cast<float>()};
-  const auto source = std::make_shared<PreparedScan>(cloud, ScanPreparationOptions{}, false);
+  const auto seenFrom = [](const Eigen::Vector3d& eye, std::vector<Eigen::Vector3f> points) {
+    Cloud cloud = cloudSeenFromOrigin(std::move(points));
+    cloud.viewpoints = {eye.cast<float>()};
+    return std::make_shared<PreparedScan>(cloud, ScanPreparationOptions{}, false);
+  };
+  const auto room = roomPoints(1400, 0.0f, 1);
+  const Eigen::Vector3d eye(0, 0, 1);
+  const auto target = seenFrom(eye, room);
+  const auto source =
+      seenFrom(target_T_source.inverse() * eye, moved(room, target_T_source.inverse()));
   const IcpResult same = icp(*target, *target, Pose3::Identity(), IcpMetric::kPointToPlane, {});
   const IcpResult far = icp(*source, *target, target_T_source, IcpMetric::kPointToPlane, {});
   ASSERT_TRUE(same.converged && far.converged);
