@@ -1,16 +1,17 @@
 // Table II of the paper on a simulated world: what becomes of true and of false pairs of key nodes
 // when the refinement starts from the truth, from odometry's rotation, or from a global alignment.
 //
-//   StartComparison WORLD [--pairs 200] [--seed 1] [--starts Teaser,SacIa] [--set
-//   section.key=value]
+//   StartComparison WORLD [--pairs 200] [--seed 1] [--starts Teaser,SacIa] [--set key=value]
 #include <CLI/CLI.hpp>
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <iostream>
+#include <fstream>
 #include <map>
+#include <optional>
 #include <random>
+#include <sstream>
 
 #include "FrontEndTeam.h"
 #include "lamp/base_station/BaseStation.h"
@@ -19,6 +20,7 @@
 #include "lamp/core/Program.h"
 #include "lamp/input/RawlogSource.h"
 #include "lamp/pose_graph/ShortestPathUncertainty.h"
+#include "lamp/registration/ObservedPart.h"
 
 namespace lamp {
 namespace {
@@ -99,15 +101,9 @@ struct Error {
   double m = 0, deg = 0;
 };
 
-/** Error of a result in the directions that it claims to know. */
-Error errorOf(const RegistrationResult& result, const Pose3& truth) {
-  Vector6d d = logSE3(result.target_T_source.inverse() * truth);
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(result.information);
-  Matrix6d known = Matrix6d::Zero();
-  for (int k = 0; k < 6; ++k)
-    if (eigen.eigenvalues()[k] > 1e-6 * eigen.eigenvalues()[5])
-      known += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose();
-  d = known * d;
+/** Error of a pose in the directions that its information knows. */
+Error errorOf(const Pose3& pose, const Matrix6d& information, const Pose3& truth) {
+  const Vector6d d = observedPart(logSE3(pose.inverse() * truth), information);
   return {d.head<3>().norm(), d.tail<3>().norm() * 180 / M_PI};
 }
 
@@ -146,106 +142,139 @@ void printRow(const std::string& start, const Tally& t) {
   std::fflush(stdout);
 }
 
-void run(const std::string& world, int count, unsigned seed, const std::vector<std::string>& starts,
-         const std::vector<std::string>& overrides, const std::string& details) {
-  registerAllClasses_lamp();
-  std::vector<std::string> all{"pipeline.candidates="};
-  all.insert(all.end(), overrides.begin(), overrides.end());
-  const SlamConfig config = SlamConfig::fromFile(world + "/lamp.ini", all, {});
-  mrpt::system::CTimeLogger timer(false, "");
-  BaseStation base(config, timer);
-  RobotTable robots;
-  Handover handover(base);
-  FrontEndTeam team(config, handover);
-  RawlogSource source(config.input.rawlogs, config.robots, robots);
-  while (const auto observation = source.next()) team.observe(*observation);
-  team.finish();
+/** The pipeline of the ini from one start: `GroundTruth`, or an initial aligner by name. */
+LoopClosureComputation computationFrom(const std::string& start,
+                                       const std::shared_ptr<GroundTruth>& truth,
+                                       const SlamConfig& config) {
+  Faults faults;
+  std::shared_ptr<InitialAligner> aligner = truth;
+  if (start != "GroundTruth")
+    aligner = makeStage<InitialAligner>(StageName::parse(start), "initial aligner", "",
+                                        config.ini(), faults);
+  faults.throwIfAny();
+  return {{aligner},
+          config.stages.refiner,
+          {config.stages.verifiers.begin(), config.stages.verifiers.end()},
+          config.registration.ambiguity};
+}
 
-  std::vector<TruePair> pairs;
-  for (const bool same_place : {true, false}) {
-    auto some = readPairs(world + "/truth/loop_pairs.csv", robots, same_place);
-    std::mt19937 random(seed);
-    for (size_t i = some.size(); i > 1; --i) std::swap(some[i - 1], some[random() % i]);
-    some.resize(std::min(some.size(), static_cast<size_t>(count)));
-    pairs.insert(pairs.end(), some.begin(), some.end());
+/** So many of the pairs, drawn at random. */
+std::vector<TruePair> drawn(std::vector<TruePair> pairs, size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  for (size_t i = pairs.size(); i > 1; --i) std::swap(pairs[i - 1], pairs[random() % i]);
+  pairs.resize(std::min(pairs.size(), count));
+  return pairs;
+}
+
+/** A recorded team: its key nodes where odometry alone puts them. */
+class Team {
+ public:
+  Team(const std::string& world, const std::vector<std::string>& overrides)
+      : config_(SlamConfig::fromFile(world + "/lamp.ini", overrides, {})),
+        base_(config_, timer_),
+        scans_(config_.registration.preparation) {
+    Handover handover(base_);
+    FrontEndTeam front_ends(config_, handover);
+    RawlogSource source(config_.input.rawlogs, config_.robots, robots_);
+    while (const auto observation = source.next()) front_ends.observe(*observation);
+    front_ends.finish();
+    for (const auto& [id, packet] : base_.packets()) scans_.add(packet);
+    uncertainty_.emplace(base_.graph());
   }
 
-  PreparedScanStore scans(config.registration.preparation);
-  for (const auto& [id, packet] : base.packets()) scans.add(packet);
-  const auto prepared = [&](const PreparedScanStore::Key& key) {
-    const PreparedScanPtr scan = scans.get(key);
+  const SlamConfig& config() const { return config_; }
+  RobotTable& robots() { return robots_; }
+  PreparedScanPtr prepared(const PreparedScanStore::Key& key) {
+    const PreparedScanPtr scan = scans_.get(key);
     scan->features();  // here, where it is not timed
     return scan;
-  };
-  const ShortestPathUncertainty uncertainty(base.graph());
-  const std::unique_ptr<FILE, int (*)(FILE*)> file(
-      details.empty() ? nullptr : std::fopen(details.c_str(), "w"),
-      [](FILE* f) { return f ? std::fclose(f) : 0; });
+  }
+  PreparedScanPtr source(const TruePair& pair) { return prepared(scans_.source(pair.candidate)); }
+  PreparedScanPtr target(const TruePair& pair) { return prepared(scans_.target(pair.candidate)); }
+  Guess guess(const TruePair& pair) const {
+    const auto& [from, to] = std::pair(pair.candidate.from, pair.candidate.to);
+    return {base_.graph().node(from).world_T_base.inverse() * base_.graph().node(to).world_T_base,
+            uncertainty_->relativeCovariances(from, {to})[0]};
+  }
+
+ private:
+  const SlamConfig config_;
+  mrpt::system::CTimeLogger timer_{false, ""};
+  BaseStation base_;
+  RobotTable robots_;
+  PreparedScanStore scans_;
+  std::optional<ShortestPathUncertainty> uncertainty_;
+};
+
+/** Adds one attempt to the tally. */
+void count(const TruePair& pair, const LoopClosureAttempt& attempt, double seconds, Tally& tally) {
+  (pair.same_place ? tally.true_pairs : tally.false_pairs)++;
+  (attempt.accepted ? tally.seconds_accepted : tally.seconds_refused) += seconds;
+  if (!attempt.accepted) {
+    ++tally.refused;
+    if (pair.same_place) ++tally.reasons[attempt.reason];
+    return;
+  }
+  if (!pair.same_place) {
+    ++tally.false_accepted;
+    return;
+  }
+  const RegistrationResult& result = attempt.result;
+  const Error error = errorOf(result.target_T_source, result.information, pair.from_T_to);
+  ++tally.accepted;
+  tally.translation += error.m;
+  tally.rotation += error.deg;
+  if (error.m <= 0.2 && error.deg <= 2) {
+    ++tally.right;
+    addCalibration(result, pair.from_T_to, tally);
+  } else if (error.m > 1 || error.deg > 5) {
+    ++tally.wrong;
+  }
+}
+
+/** A line of the file of details: errors of start and result, and all scores. */
+std::string describe(const std::string& start, const TruePair& pair,
+                     const LoopClosureAttempt& attempt, const RobotTable& robots) {
+  const RegistrationResult& result = attempt.result;
+  const Error first = errorOf(result.start, result.information, pair.from_T_to);
+  const Error last = errorOf(result.target_T_source, result.information, pair.from_T_to);
+  std::ostringstream line;
+  line << start << "," << robots.format(pair.candidate.from) << ","
+       << robots.format(pair.candidate.to) << "," << pair.same_place << "," << pair.overlap << ","
+       << attempt.accepted << "," << attempt.reason << "," << first.m << "," << first.deg << ","
+       << last.m << "," << last.deg;
+  for (const Score& score : attempt.scores) line << "," << score.name << "=" << score.value;
+  return line.str();
+}
+
+void run(const std::string& world, size_t pair_count, unsigned seed,
+         const std::vector<std::string>& starts, std::vector<std::string> overrides,
+         const std::string& details) {
+  registerAllClasses_lamp();
+  overrides.insert(overrides.begin(), "pipeline.candidates=");
+  Team team(world, overrides);
+  std::vector<TruePair> pairs;
+  for (const bool same_place : {true, false})
+    for (const TruePair& pair :
+         drawn(readPairs(world + "/truth/loop_pairs.csv", team.robots(), same_place), pair_count,
+               seed))
+      pairs.push_back(pair);
+  std::ofstream file;
+  if (!details.empty()) file.open(details);
 
   for (const std::string& start : starts) {
-    Faults faults;
     const auto truth = std::make_shared<GroundTruth>();
-    std::shared_ptr<InitialAligner> aligner = truth;
-    if (start != "GroundTruth")
-      aligner = makeStage<InitialAligner>(StageName::parse(start), "initial aligner", "",
-                                          config.ini(), faults);
-    faults.throwIfAny();
-    const LoopClosureComputation computation(
-        {aligner}, config.stages.refiner,
-        {config.stages.verifiers.begin(), config.stages.verifiers.end()},
-        config.registration.ambiguity);
+    const LoopClosureComputation computation = computationFrom(start, truth, team.config());
     Tally tally;
     for (const TruePair& pair : pairs) {
-      const auto a = prepared(scans.target(pair.candidate));
-      const auto b = prepared(scans.source(pair.candidate));
+      const PreparedScanPtr source = team.source(pair), target = team.target(pair);
+      const Guess guess = team.guess(pair);
       truth->truth = pair.from_T_to;
-      Guess guess{base.graph().node(pair.candidate.from).world_T_base.inverse() *
-                      base.graph().node(pair.candidate.to).world_T_base,
-                  std::nullopt};
-      const auto covariance =
-          uncertainty.relativeCovariances(pair.candidate.from, {pair.candidate.to});
-      guess.covariance = covariance[0];
       const auto begin = std::chrono::steady_clock::now();
-      const LoopClosureAttempt attempt = computation.compute(*b, *a, guess);
-      const double seconds =
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      (pair.same_place ? tally.true_pairs : tally.false_pairs)++;
-      (attempt.accepted ? tally.seconds_accepted : tally.seconds_refused) += seconds;
-      const Error error = errorOf(attempt.result, pair.from_T_to);
-      if (file) {
-        std::fprintf(file.get(), "%s,%s,%s,%d,%.3f,%d,%s,%.3f,%.3f", start.c_str(),
-                     robots.format(pair.candidate.from).c_str(),
-                     robots.format(pair.candidate.to).c_str(), pair.same_place, pair.overlap,
-                     attempt.accepted, attempt.reason.c_str(), error.m, error.deg);
-        const Error start_error = errorOf(
-            [&] {
-              auto r = attempt.result;
-              r.target_T_source = r.start;
-              return r;
-            }(),
-            pair.from_T_to);
-        std::fprintf(file.get(), ",start %.2f %.1f", start_error.m, start_error.deg);
-        for (const Score& score : attempt.scores)
-          std::fprintf(file.get(), ",%s=%.4f", score.name.c_str(), score.value);
-        std::fprintf(file.get(), "\n");
-      }
-      if (!attempt.accepted) {
-        ++tally.refused;
-        if (pair.same_place) ++tally.reasons[attempt.reason];
-        continue;
-      }
-      if (!pair.same_place) {
-        ++tally.false_accepted;
-        continue;
-      }
-      ++tally.accepted;
-      tally.translation += error.m;
-      tally.rotation += error.deg;
-      if (error.m <= 0.2 && error.deg <= 2) {
-        ++tally.right;
-        addCalibration(attempt.result, pair.from_T_to, tally);
-      } else if (error.m > 1 || error.deg > 5)
-        ++tally.wrong;
+      const LoopClosureAttempt attempt = computation.compute(*source, *target, guess);
+      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+      count(pair, attempt, taken.count(), tally);
+      if (file.is_open()) file << describe(start, pair, attempt, team.robots()) << "\n";
     }
     printRow(start, tally);
     printCalibration(tally);
@@ -258,7 +287,7 @@ void run(const std::string& world, int count, unsigned seed, const std::vector<s
 int main(int argc, char** argv) {
   CLI::App app("Table II of the paper on a simulated world");
   std::string world, details;
-  int pairs = 200;
+  size_t pairs = 200;
   unsigned seed = 1;
   std::vector<std::string> overrides,
       starts{"GroundTruth", "Odometry", "OdometryRotation", "Teaser"};

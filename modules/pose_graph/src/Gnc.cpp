@@ -51,7 +51,7 @@ std::vector<GncLoop> gncLoops(const PoseGraph& graph, const std::vector<bool>& a
   return loops;
 }
 
-/** Loops that were judged before keep their verdict for now. */
+/** Loops that were judged before keep their verdict until the last stage, which judges all. */
 void keepVerdicts(const GncMemory& memory, std::vector<GncLoop>& loops) {
   for (GncLoop& loop : loops) {
     loop.graduated = loop.edge >= memory.edges.size();

@@ -17,6 +17,7 @@ class GuessDeviationTest : public testing::Test {
     RegistrationResult result;
     result.target_T_source = result_pose;
     result.information = result_information;
+    result.unobserved = unobserved;
     const auto scan = prepareScan({}, 3, planar);
     return verifier.verify(result, *scan, *scan, guess);
   }
@@ -30,6 +31,7 @@ class GuessDeviationTest : public testing::Test {
 
   GuessDeviation verifier;
   Matrix6d result_information = 100 * Matrix6d::Identity();
+  std::vector<std::string> unobserved;
   const Pose3 T = expSE3(tangent(2, 1, 0.5, 0.1, 0.2, 1.5));
 };
 
@@ -98,6 +100,9 @@ TEST_F(GuessDeviationTest, WhatTheResultDoesNotKnowIsNoDeviation) {
   result_information(0, 0) = 0;
   EXPECT_TRUE(verify(slid, guess(T, 0.5, 0.1)).accepted());
   EXPECT_FALSE(verify(T * planarPose(20, 20, 0), guess(T, 0.5, 0.1)).accepted());
+  unobserved = {"translation along x"};
+  EXPECT_NEAR(*verify(slid, guess(T, 0.5, 0.1)).scores[0].threshold,
+              chiSquareQuantile(verifier.options.probability, 5), 1e-12);
 }
 
 }  // namespace

@@ -3,31 +3,11 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "GridCell.h"
+
 namespace lamp {
 
 using Eigen::Vector3f;
-
-namespace {
-
-struct Cell {
-  int64_t x, y, z;
-  bool operator==(const Cell& o) const { return x == o.x && y == o.y && z == o.z; }
-};
-
-struct CellHash {
-  size_t operator()(const Cell& c) const {
-    return static_cast<size_t>(c.x) * 73856093 ^ static_cast<size_t>(c.y) * 19349669 ^
-           static_cast<size_t>(c.z) * 83492791;
-  }
-};
-
-Cell cellOf(const Vector3f& point, double leaf_m) {
-  const Eigen::Matrix<int64_t, 3, 1> cell =
-      (point.cast<double>() / leaf_m).array().floor().cast<int64_t>();
-  return {cell.x(), cell.y(), cell.z()};
-}
-
-}  // namespace
 
 bool isUsable(const Vector3f& point) {
   constexpr float kFarthest_m = 1e6f;
@@ -44,7 +24,7 @@ Cloud cloudSeenFromOrigin(std::vector<Vector3f> points) {
 
 Cloud accumulate(const std::vector<PlacedScan>& scans, double leaf_m) {
   Cloud cloud;
-  std::unordered_set<Cell, CellHash> filled;
+  std::unordered_set<GridCell, GridCellHash> filled;
   cloud.own_viewpoints = scans.empty() ? 0 : scans.front().scan->sensors.size();
   for (const PlacedScan& placed : scans) {
     const Eigen::Isometry3f T = placed.target_T_scan.cast<float>();
@@ -65,7 +45,7 @@ Cloud accumulate(const std::vector<PlacedScan>& scans, double leaf_m) {
 }
 
 Cloud voxelMeans(const Cloud& cloud, double leaf_m) {
-  std::unordered_map<Cell, size_t, CellHash> place;
+  std::unordered_map<GridCell, size_t, GridCellHash> place;
   place.reserve(cloud.size());
   std::vector<Eigen::Vector3d> sums;
   std::vector<int> counts;

@@ -32,8 +32,8 @@ void erase(uint32_t v, Bits& bits) {
 
 class Search {
  public:
-  Search(const ConsistencyGraph& graph, const std::vector<bool>& allowed, size_t max_branches)
-      : graph_(graph), branches_left_(max_branches), alive_(graph.words(), 0) {
+  Search(const ConsistencyGraph& graph, const std::vector<bool>& allowed)
+      : graph_(graph), alive_(graph.words(), 0) {
     for (uint32_t v = 0; v < graph.size(); ++v)
       if (allowed[v]) alive_[v / 64] |= uint64_t{1} << (v % 64);
     findCores();
@@ -136,10 +136,10 @@ class Search {
     }
   }
 
-  static constexpr size_t kSeeds = 12;
+  static constexpr size_t kSeeds = 12, kMostBranches = 500;
 
   const ConsistencyGraph& graph_;
-  size_t branches_left_;
+  size_t branches_left_ = kMostBranches;
   Bits alive_;
   std::vector<size_t> core_;
   std::vector<uint32_t> order_;  ///< vertices in ascending core number
@@ -148,9 +148,9 @@ class Search {
 
 }  // namespace
 
-std::vector<uint32_t> maximumClique(const ConsistencyGraph& graph, const std::vector<bool>& allowed,
-                                    const CliqueSearch& search) {
-  return Search(graph, allowed, search.max_branches).run();
+std::vector<uint32_t> maximumClique(const ConsistencyGraph& graph,
+                                    const std::vector<bool>& allowed) {
+  return Search(graph, allowed).run();
 }
 
 }  // namespace lamp

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "NeighborPairs.h"
 #include "lamp/core/KdTree.h"

@@ -4,26 +4,23 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "GridCell.h"
+#include "lamp/scans/Cloud.h"
+
 namespace lamp {
 
 namespace {
 
-constexpr float kFarthest_m = 1e6f;
-
-struct Cell {
-  int x, y, z;
+/** Points of different sensors are not mixed. */
+struct SensorCell {
+  GridCell cell;
   uint8_t sensor;
-  bool operator==(const Cell& o) const {
-    return x == o.x && y == o.y && z == o.z && sensor == o.sensor;
-  }
+  bool operator==(const SensorCell& o) const { return cell == o.cell && sensor == o.sensor; }
 };
 
-struct CellHash {
-  size_t operator()(const Cell& c) const {
-    size_t h = static_cast<uint32_t>(c.x) * size_t{73856093};
-    h ^= static_cast<uint32_t>(c.y) * size_t{19349669};
-    h ^= static_cast<uint32_t>(c.z) * size_t{83492791};
-    return h ^ (size_t{c.sensor} << 48);
+struct SensorCellHash {
+  size_t operator()(const SensorCell& c) const {
+    return GridCellHash()(c.cell) ^ size_t { c.sensor } << 48;
   }
 };
 
@@ -37,16 +34,13 @@ struct Sum {
 }  // namespace
 
 Scan voxelFilter(const Scan& scan, double leaf_m) {
-  std::unordered_map<Cell, size_t, CellHash> place;
+  std::unordered_map<SensorCell, size_t, SensorCellHash> place;
   place.reserve(scan.size());
   std::vector<Sum> sums;
   for (size_t i = 0; i < scan.size(); ++i) {
-    if (!(scan.points[i].norm() < kFarthest_m)) continue;  // NaN, too
-    const Eigen::Vector3d cell = (scan.points[i].cast<double>() / leaf_m).array().floor();
-    const auto [found, is_new] =
-        place.emplace(Cell{static_cast<int>(cell.x()), static_cast<int>(cell.y()),
-                           static_cast<int>(cell.z()), scan.sensor[i]},
-                      sums.size());
+    if (!isUsable(scan.points[i])) continue;
+    const SensorCell cell{cellOf(scan.points[i], leaf_m), scan.sensor[i]};
+    const auto [found, is_new] = place.emplace(cell, sums.size());
     if (is_new) sums.push_back({});
     Sum& sum = sums[found->second];
     sum.point += scan.points[i].cast<double>();

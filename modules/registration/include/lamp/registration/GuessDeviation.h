@@ -23,10 +23,6 @@ class GuessDeviation : public Verifier {
   void visit(OptionVisitor& v) override { options.visit(v); }
   Verification verify(const RegistrationResult& result, const PreparedScan& source,
                       const PreparedScan& target, const Guess& guess) const override;
-
- private:
-  static double mahalanobis(const Vector6d& deviation, const Matrix6d& covariance,
-                            const Matrix6d& information);
 };
 
 }  // namespace lamp

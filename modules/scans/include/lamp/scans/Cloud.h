@@ -40,7 +40,7 @@ struct PlacedScan {
 Cloud accumulate(const std::vector<PlacedScan>& scans, double leaf_m);
 
 /** One point, the mean, for each occupied cell of a grid with edge `leaf_m` (metres); its viewpoint
- * is that of the cell's first point. Order: by first point. */
+ * is that of the cell's first point. Order: by first point. \param cloud usable points only. */
 Cloud voxelMeans(const Cloud& cloud, double leaf_m);
 
 /** Turns the normals of the cloud's points towards where the points were seen from. */

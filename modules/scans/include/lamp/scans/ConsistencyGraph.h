@@ -29,14 +29,10 @@ class ConsistencyGraph {
   std::vector<uint64_t> bits_;
 };
 
-struct CliqueSearch {
-  size_t max_branches = 500;  ///< after so many the best clique so far is returned
-};
-
 /** A maximum clique among the vertices that are `allowed` (one entry a vertex), ascending; exact
  * unless the search ran out of branches. A greedy clique from the vertices of highest core number
  * comes first; it then bounds the search (Rossi et al. 2014, as in TEASER++). */
-std::vector<uint32_t> maximumClique(const ConsistencyGraph& graph, const std::vector<bool>& allowed,
-                                    const CliqueSearch& search = {});
+std::vector<uint32_t> maximumClique(const ConsistencyGraph& graph,
+                                    const std::vector<bool>& allowed);
 
 }  // namespace lamp
