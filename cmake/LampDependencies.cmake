@@ -10,6 +10,7 @@ find_package(Ceres REQUIRED)
 find_package(octomap REQUIRED)
 find_package(nanoflann REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(liblzf REQUIRED)
 find_package(embree 3 REQUIRED)
 
 function(lamp_dependency name)
@@ -32,7 +33,18 @@ lamp_dependency(ceres Ceres::ceres)
 lamp_dependency(nanoflann nanoflann::nanoflann)
 lamp_dependency(threads Threads::Threads)
 lamp_dependency(zlib ZLIB::ZLIB)
+lamp_dependency(lzf liblzf::liblzf)
 lamp_dependency(embree embree)
 # OctoMap's CMake package gives plain variables, no targets with include paths.
 lamp_dependency(octomap ${OCTOMAP_LIBRARIES})
 target_include_directories(lamp_dep_octomap SYSTEM INTERFACE ${OCTOMAP_INCLUDE_DIRS})
+
+# lamp_link_pcl_io(<test program>): PCL reads our clouds, and we read its. Its CMake package would
+# ask for VTK, MPI and C.
+function(lamp_link_pcl_io target)
+  find_path(LAMP_PCL_INCLUDE_DIR pcl/io/pcd_io.h PATH_SUFFIXES pcl-1.12 pcl-1.13 pcl-1.14 REQUIRED)
+  find_library(LAMP_PCL_IO_LIBRARY pcl_io REQUIRED)
+  find_library(LAMP_PCL_COMMON_LIBRARY pcl_common REQUIRED)
+  target_include_directories(${target} SYSTEM PRIVATE ${LAMP_PCL_INCLUDE_DIR})
+  target_link_libraries(${target} PRIVATE ${LAMP_PCL_IO_LIBRARY} ${LAMP_PCL_COMMON_LIBRARY})
+endfunction()

@@ -85,6 +85,10 @@ LampResult runLamp(const std::vector<std::string>& arguments) {
   return LampProcess(arguments).wait();
 }
 
+LampResult runRegister(const std::vector<std::string>& arguments) {
+  return LampProcess(LAMP_REGISTER, arguments).wait();
+}
+
 LampResult runSimulator(const std::vector<std::string>& arguments) {
   return LampProcess(LAMP_SIM, arguments).wait();
 }

@@ -39,6 +39,8 @@ class LampProcess {
 
 /** Runs lamp-slam to its end. */
 LampResult runLamp(const std::vector<std::string>& arguments);
+/** Runs lamp-register to its end. */
+LampResult runRegister(const std::vector<std::string>& arguments);
 /** Runs lamp-sim to its end. */
 LampResult runSimulator(const std::vector<std::string>& arguments);
 

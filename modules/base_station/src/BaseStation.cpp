@@ -41,10 +41,7 @@ BaseStation::BaseStation(const SlamConfig& config, mrpt::system::CTimeLogger& ti
       options_(config.base_station),
       inter_robot_loops_(config.pipeline.inter_robot_loops),
       stages_(config.stages),
-      computation_({config.stages.initial_aligners.begin(), config.stages.initial_aligners.end()},
-                   config.stages.refiner,
-                   {config.stages.verifiers.begin(), config.stages.verifiers.end()},
-                   config.registration.ambiguity),
+      computation_(config.makeLoopClosureComputation()),
       timer_(timer),
       scans_(config.registration.preparation) {}
 

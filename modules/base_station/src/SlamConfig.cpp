@@ -276,6 +276,13 @@ std::shared_ptr<OdometrySource> SlamConfig::makeOdometry() const {
   return odometry;
 }
 
+LoopClosureComputation SlamConfig::makeLoopClosureComputation() const {
+  return {{stages.initial_aligners.begin(), stages.initial_aligners.end()},
+          stages.refiner,
+          {stages.verifiers.begin(), stages.verifiers.end()},
+          registration.ambiguity};
+}
+
 std::string SlamConfig::text() const {
   SlamConfig copy = *this;  // visit() takes options that it may change
   std::string text = writeOptions("plugins", copy.plugins) + "\n" + writeOptions("run", copy.run) +

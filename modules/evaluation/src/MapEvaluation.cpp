@@ -10,7 +10,7 @@
 
 #include "Colormap.h"
 #include "lamp/core/Files.h"
-#include "lamp/evaluation/PlyVertices.h"
+#include "lamp/core/PlyVertices.h"
 
 namespace lamp {
 

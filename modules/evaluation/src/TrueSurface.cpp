@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "lamp/evaluation/PlyVertices.h"
+#include "lamp/core/PlyVertices.h"
 
 namespace lamp {
 

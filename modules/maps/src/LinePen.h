@@ -19,6 +19,9 @@ class LinePen {
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Color color, double width_px,
             double opacity = 1.0);
   void polyline(const std::vector<Eigen::Vector2d>& points, Color color, double width_px);
+  void dot(const Eigen::Vector2d& centre, Color color, double diameter_px, double opacity) {
+    line(centre, centre, color, diameter_px, opacity);
+  }
   void ring(const Eigen::Vector2d& centre, double radius_px, Color color, double width_px);
 
  private:

@@ -1,15 +1,13 @@
 #include "lamp/maps/Picture.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <stdexcept>
 
 #include "DensityImage.h"
 #include "Legend.h"
 #include "LinePen.h"
 #include "MapPoints.h"
+#include "Png.h"
 #include "TopView.h"
-#include "lamp/core/Files.h"
 
 IMPLEMENTS_MRPT_OBJECT(Picture, lamp::MapExporter, lamp)
 
@@ -80,18 +78,6 @@ mrpt::img::CImage render(const ComponentMap& map, const PictureOptions& options)
   drawFrame(view, image, x0, y0);
   legend.draw(image, kMargin_px, view.height + 2 * kMargin_px);
   return image;
-}
-
-void writePng(const mrpt::img::CImage& image, const std::string& path) {
-  writeAtomically(path, [&](const std::string& temporary) {
-    // MRPT takes the format from the file's ending.
-    const std::string png = temporary + ".png";
-    const bool written = image.saveToFile(png);
-    if (written) return std::filesystem::rename(png, temporary);
-    std::filesystem::remove(png);
-    throw std::runtime_error("cannot write '" + path +
-                             "': check that its folder exists and has room");
-  });
 }
 
 }  // namespace

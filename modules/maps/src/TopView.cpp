@@ -65,7 +65,10 @@ Box boxOf(const ComponentMap& map) {
 }  // namespace
 
 TopView viewOf(const ComponentMap& map, int size_px, double finest_pixel_m) {
-  const Box box = boxOf(map);
+  return viewOf(boxOf(map), size_px, finest_pixel_m);
+}
+
+TopView viewOf(const Eigen::AlignedBox2d& box, int size_px, double finest_pixel_m) {
   const double margin = std::max(kLeastMargin_m, kMarginShare * box.sizes().maxCoeff());
   const Eigen::Vector2d sizes = box.sizes().array() + 2 * margin;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "lamp/maps/MapExporter.h"
 
 namespace lamp {
@@ -19,5 +21,7 @@ struct TopView {
 /** The view that shows all trajectories and loop closures, and the points but for the outermost
  * 0.1 % on each side. The longer side has at most `size_px` pixels, none below `finest_pixel_m`. */
 TopView viewOf(const ComponentMap& map, int size_px, double finest_pixel_m);
+/** The view that shows a box, in metres, and a margin around it. */
+TopView viewOf(const Eigen::AlignedBox2d& box, int size_px, double finest_pixel_m);
 
 }  // namespace lamp

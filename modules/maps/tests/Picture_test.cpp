@@ -6,6 +6,7 @@
 
 #include "Legend.h"
 #include "TestMaps.h"
+#include "TestPixels.h"
 #include "TopView.h"
 
 namespace lamp {
@@ -16,21 +17,9 @@ using testing::HasSubstr;
 
 constexpr int kMargin_px = 20;
 
-Color pixelAt(const CImage& image, int x, int y) {
-  const uint8_t* p = image.ptrLine<uint8_t>(y) + 3 * x;
-  return {p[2], p[1], p[0]};
-}
-
 bool alike(Color a, Color b, int tolerance = 40) {
   return std::abs(a.r - b.r) <= tolerance && std::abs(a.g - b.g) <= tolerance &&
          std::abs(a.b - b.b) <= tolerance;
-}
-
-/** Whether a pixel of white paper carries a fair amount of an ink. */
-bool inked(Color pixel, Color ink) {
-  const Eigen::Vector3d p(255 - pixel.r, 255 - pixel.g, 255 - pixel.b);
-  const Eigen::Vector3d full(255 - ink.r, 255 - ink.g, 255 - ink.b);
-  return p.norm() > 0.4 * full.norm() && p.dot(full) > 0.99 * p.norm() * full.norm();
 }
 
 size_t count(const CImage& image, Color color, int rows) {

@@ -27,28 +27,30 @@ LoopClosureAttempt LoopClosureComputation::compute(const PreparedScan& source,
                                                    const PreparedScan& target,
                                                    const Guess& guess) const {
   Followed best;
+  std::vector<AlignerOutcome> alignments;
   for (const auto& aligner : aligners_) {
-    Followed followed = alignWith(*aligner, source, target, guess);
-    if (&aligner == &aligners_.front() || followed.steps > best.steps) best = std::move(followed);
+    alignments.push_back({aligner->getLoggerName(), aligner->align(source, target, guess)});
+    Followed followed = follow(alignments.back(), source, target, guess);
+    if (alignments.size() == 1 || followed.steps > best.steps) best = std::move(followed);
     if (best.attempt.accepted) break;
   }
-  return best.attempt;
+  best.attempt.alignments = std::move(alignments);
+  return std::move(best.attempt);
 }
 
-LoopClosureComputation::Followed LoopClosureComputation::alignWith(const InitialAligner& aligner,
-                                                                   const PreparedScan& source,
-                                                                   const PreparedScan& target,
-                                                                   const Guess& guess) const {
-  const AlignmentResult alignment = aligner.align(source, target, guess);
+LoopClosureComputation::Followed LoopClosureComputation::follow(const AlignerOutcome& outcome,
+                                                                const PreparedScan& source,
+                                                                const PreparedScan& target,
+                                                                const Guess& guess) const {
   Followed best;
-  best.attempt.stage = aligner.getLoggerName();
-  best.attempt.reason = alignment.refusal;
-  for (const Hypothesis& hypothesis : alignment.hypotheses) {
+  best.attempt.stage = outcome.aligner;
+  best.attempt.reason = outcome.alignment.refusal;
+  for (const Hypothesis& hypothesis : outcome.alignment.hypotheses) {
     Followed followed = refineAndVerify(source, target, guess, hypothesis);
     if (best.attempt.accepted && followed.attempt.accepted &&
         differ(best.attempt.result, followed.attempt.result)) {
       best.attempt.accepted = false;
-      best.attempt.stage = aligner.getLoggerName();
+      best.attempt.stage = outcome.aligner;
       best.attempt.reason = "ambiguous";
       return best;
     }

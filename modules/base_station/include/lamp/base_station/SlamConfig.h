@@ -106,6 +106,8 @@ class SlamConfig {
   /** A new odometry source, one for each robot. */
   std::shared_ptr<OdometrySource> makeOdometry() const;
 
+  LoopClosureComputation makeLoopClosureComputation() const;
+
   /** The effective ini: complete, and running it again gives the same run. */
   std::string text() const;
 

@@ -18,6 +18,12 @@ struct AmbiguityOptions {
   void visit(OptionVisitor& v);
 };
 
+/** What an aligner found. */
+struct AlignerOutcome {
+  std::string aligner;
+  AlignmentResult alignment;
+};
+
 /** Outcome of one attempt to close a loop. */
 struct LoopClosureAttempt {
   bool accepted = false;
@@ -25,6 +31,7 @@ struct LoopClosureAttempt {
   std::string reason;  ///< why it was refused; empty if it was not
   RegistrationResult result;
   std::vector<Score> scores;
+  std::vector<AlignerOutcome> alignments;  ///< of the aligners that were asked
 };
 
 /** Align, refine, verify (paper II-C, "Loop closure computation").
@@ -51,8 +58,8 @@ class LoopClosureComputation {
     LoopClosureAttempt attempt;
     size_t steps = 0;
   };
-  Followed alignWith(const InitialAligner& aligner, const PreparedScan& source,
-                     const PreparedScan& target, const Guess& guess) const;
+  Followed follow(const AlignerOutcome& outcome, const PreparedScan& source,
+                  const PreparedScan& target, const Guess& guess) const;
   Followed refineAndVerify(const PreparedScan& source, const PreparedScan& target,
                            const Guess& guess, const Hypothesis& hypothesis) const;
   bool differ(const RegistrationResult& a, const RegistrationResult& b) const;

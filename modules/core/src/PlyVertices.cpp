@@ -1,42 +1,31 @@
-#include "lamp/evaluation/PlyVertices.h"
+#include "lamp/core/PlyVertices.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 
+#include "Scalar.h"
 #include "lamp/core/Csv.h"
 
 namespace lamp {
 
 namespace {
 
-template <class T>
-double valueOf(const char* bytes) {
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return static_cast<double>(value);
-}
-
-/** How a scalar type is stored. PLY has an old and a new name for each. */
-struct Scalar {
-  size_t size;
-  double (*value)(const char*);
-};
+/** PLY has an old and a new name for each type. */
 const std::map<std::string, Scalar> kScalars = {
-    {"char", {1, valueOf<int8_t>}},     {"int8", {1, valueOf<int8_t>}},
-    {"uchar", {1, valueOf<uint8_t>}},   {"uint8", {1, valueOf<uint8_t>}},
-    {"short", {2, valueOf<int16_t>}},   {"int16", {2, valueOf<int16_t>}},
-    {"ushort", {2, valueOf<uint16_t>}}, {"uint16", {2, valueOf<uint16_t>}},
-    {"int", {4, valueOf<int32_t>}},     {"int32", {4, valueOf<int32_t>}},
-    {"uint", {4, valueOf<uint32_t>}},   {"uint32", {4, valueOf<uint32_t>}},
-    {"float", {4, valueOf<float>}},     {"float32", {4, valueOf<float>}},
-    {"double", {8, valueOf<double>}},   {"float64", {8, valueOf<double>}}};
+    {"char", Scalar::of<int8_t>()},     {"int8", Scalar::of<int8_t>()},
+    {"uchar", Scalar::of<uint8_t>()},   {"uint8", Scalar::of<uint8_t>()},
+    {"short", Scalar::of<int16_t>()},   {"int16", Scalar::of<int16_t>()},
+    {"ushort", Scalar::of<uint16_t>()}, {"uint16", Scalar::of<uint16_t>()},
+    {"int", Scalar::of<int32_t>()},     {"int32", Scalar::of<int32_t>()},
+    {"uint", Scalar::of<uint32_t>()},   {"uint32", Scalar::of<uint32_t>()},
+    {"float", Scalar::of<float>()},     {"float32", Scalar::of<float>()},
+    {"double", Scalar::of<double>()},   {"float64", Scalar::of<double>()}};
 
 }  // namespace
 
@@ -130,7 +119,7 @@ bool PlyVertices::readVertex(std::istream& file, std::vector<double>& values) co
 }
 
 void PlyVertices::read(const std::vector<std::string>& properties,
-                       const std::function<void(const double*)>& take) const {
+                       const std::function<void(const double*)>& take, NotFinite not_finite) const {
   const std::vector<size_t> places = placesOf(properties);
   std::ifstream file(path_, std::ios::binary);
   file.seekg(data_);
@@ -141,7 +130,7 @@ void PlyVertices::read(const std::vector<std::string>& properties,
            std::to_string(count_));
     for (size_t k = 0; k < places.size(); ++k) {
       taken[k] = values[places[k]];
-      if (!std::isfinite(taken[k]))
+      if (not_finite == NotFinite::kRefuse && !std::isfinite(taken[k]))
         fail("has a value that is not finite in vertex " + std::to_string(i + 1));
     }
     take(taken.data());

@@ -15,13 +15,20 @@ class PlyVertices {
    *  is big-endian, or its vertices do not come first or have lists. */
   explicit PlyVertices(const std::string& path);
 
+  /** What becomes of values that are no finite numbers. */
+  enum class NotFinite {
+    kRefuse,  ///< an error
+    kTake,    ///< they are values like any other
+  };
+
   size_t count() const { return count_; }
   bool has(const std::string& property) const;
   /** Calls `take` for each vertex with the named properties' values, in that order.
    * \throws std::runtime_error naming the file if it has no such property, ends early, or a value
-   * is no finite number. */
+   * is no finite number where that is refused. */
   void read(const std::vector<std::string>& properties,
-            const std::function<void(const double*)>& take) const;
+            const std::function<void(const double*)>& take,
+            NotFinite not_finite = NotFinite::kRefuse) const;
 
  private:
   struct Property {

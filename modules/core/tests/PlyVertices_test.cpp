@@ -1,0 +1,87 @@
+#include "lamp/core/PlyVertices.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "TestSupport.h"
+#include "lamp/core/Files.h"
+
+namespace lamp {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+std::string header(const std::string& format, const std::string& count = "2") {
+  return "ply\nformat " + format + " 1.0\ncomment c\nelement vertex " + count +
+         "\nproperty uchar seen\nproperty double x\nproperty float y\nproperty short z\n"
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+std::vector<std::vector<double>> readXyzSeen(const std::string& content) {
+  const std::string path = freshFolder() + "/t.ply";
+  writeTextFile(path, content);
+  std::vector<std::vector<double>> rows;
+  PlyVertices(path).read({"x", "y", "z", "seen"},
+                         [&](const double* v) { rows.emplace_back(v, v + 4); });
+  return rows;
+}
+
+template <class T>
+std::string bytes(T value) {
+  std::string text(sizeof value, '\0');
+  std::memcpy(text.data(), &value, sizeof value);
+  return text;
+}
+
+TEST(PlyVertices, AsciiAndBinaryAreTheSame) {
+  const auto ascii = readXyzSeen(header("ascii") + "1 1.5 2.5 -3\n0 4 5 6\n3 0 1 1\n");
+  const auto binary = readXyzSeen(header("binary_little_endian") + bytes<uint8_t>(1) + bytes(1.5) +
+                                  bytes(2.5f) + bytes<int16_t>(-3) + bytes<uint8_t>(0) +
+                                  bytes(4.0) + bytes(5.0f) + bytes<int16_t>(6) + "face");
+  EXPECT_THAT(ascii, testing::ElementsAre(testing::ElementsAre(1.5, 2.5, -3, 1),
+                                          testing::ElementsAre(4, 5, 6, 0)));
+  EXPECT_EQ(ascii, binary);
+}
+
+TEST(PlyVertices, DamagedFilesAreErrors) {
+  const std::string good = header("binary_little_endian");
+  const auto error = [](const std::string& content) {
+    return thrownBy([&] { readXyzSeen(content); });
+  };
+  EXPECT_THAT(error(""), HasSubstr("is no PLY file"));
+  EXPECT_THAT(error("plz"), HasSubstr("is no PLY file"));
+  EXPECT_THAT(error(good.substr(0, good.size() - 11)), HasSubstr("ends within its header"));
+  EXPECT_THAT(error(good + std::string(28, '\0')), HasSubstr("too short for the 2 vertices"));
+  EXPECT_THAT(error(header("ascii", "1e12") + "1 2 3 4\n"), HasSubstr("too short for the 1000"));
+  EXPECT_THAT(error(header("ascii") + "1 2 3.000000000 4\n"), HasSubstr("at vertex 2 of 2"));
+  EXPECT_THAT(error(header("ascii") + "1 2 3 4\n1 x 3 4\n"), HasSubstr("at vertex 2 of 2"));
+  EXPECT_THAT(error(header("ascii") + "1 2 3 4\n1 nan 3 4\n"), HasSubstr("not finite in vertex 2"));
+  EXPECT_THAT(error(header("binary_big_endian")), HasSubstr("binary_big_endian"));
+  EXPECT_THAT(error(header("ascii", "many")), HasSubstr("no number of vertices"));
+  EXPECT_THAT(error("ply\nformat ascii 1.0\nend_header\n"), HasSubstr("has no vertices"));
+  EXPECT_THAT(error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"),
+              HasSubstr("without 'y'"));
+  EXPECT_THAT(error("ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar int x\n"),
+              HasSubstr("type 'list'"));
+  EXPECT_THAT(error("ply\nformat ascii 1.0\nelement face 1\nelement vertex 1\n"),
+              HasSubstr("elements before its vertices"));
+  EXPECT_THAT(thrownBy([] { PlyVertices("/nowhere.ply"); }), HasSubstr("'/nowhere.ply'"));
+}
+
+TEST(PlyVertices, ValuesThatAreNotFiniteAreTakenWhereTheyAreAskedFor) {
+  const std::string path = freshFolder() + "/t.ply";
+  writeTextFile(path, header("ascii", "1") + "1 nan 2 3\n");
+  std::vector<double> x;
+  const auto take = [&](const double* v) { x.push_back(*v); };
+  EXPECT_THAT(thrownBy([&] { PlyVertices(path).read({"x"}, take); }), HasSubstr("not finite"));
+  PlyVertices(path).read({"x"}, take, PlyVertices::NotFinite::kTake);
+  ASSERT_EQ(x.size(), 1u);
+  EXPECT_TRUE(std::isnan(x[0]));
+}
+
+}  // namespace
+}  // namespace lamp

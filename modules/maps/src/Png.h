@@ -1,0 +1,12 @@
+#pragma once
+
+#include <mrpt/img/CImage.h>
+
+#include <string>
+
+namespace lamp {
+
+/** \throws std::runtime_error naming the path. */
+void writePng(const mrpt::img::CImage& image, const std::string& path);
+
+}  // namespace lamp
