@@ -39,12 +39,13 @@ lamp_dependency(embree embree)
 lamp_dependency(octomap ${OCTOMAP_LIBRARIES})
 target_include_directories(lamp_dep_octomap SYSTEM INTERFACE ${OCTOMAP_INCLUDE_DIRS})
 
-# lamp_link_pcl_io(<test program>): PCL reads our clouds, and we read its. Its CMake package would
-# ask for VTK, MPI and C.
-function(lamp_link_pcl_io target)
-  find_path(LAMP_PCL_INCLUDE_DIR pcl/io/pcd_io.h PATH_SUFFIXES pcl-1.12 pcl-1.13 pcl-1.14 REQUIRED)
-  find_library(LAMP_PCL_IO_LIBRARY pcl_io REQUIRED)
-  find_library(LAMP_PCL_COMMON_LIBRARY pcl_common REQUIRED)
+# lamp_link_pcl(<target> <component>...): for tests and benchmarks, which compare with PCL. Its CMake
+# package would ask for VTK, MPI and C.
+function(lamp_link_pcl target)
+  find_path(LAMP_PCL_INCLUDE_DIR pcl/point_types.h PATH_SUFFIXES pcl-1.12 pcl-1.13 pcl-1.14 REQUIRED)
   target_include_directories(${target} SYSTEM PRIVATE ${LAMP_PCL_INCLUDE_DIR})
-  target_link_libraries(${target} PRIVATE ${LAMP_PCL_IO_LIBRARY} ${LAMP_PCL_COMMON_LIBRARY})
+  foreach(component ${ARGN} common)
+    find_library(LAMP_PCL_${component}_LIBRARY pcl_${component} REQUIRED)
+    target_link_libraries(${target} PRIVATE ${LAMP_PCL_${component}_LIBRARY})
+  endforeach()
 endfunction()

@@ -4,14 +4,19 @@
 #include <cmath>
 
 #include "lamp/registration/ObservedPart.h"
+#include "lamp/scans/Agreement.h"
 
 namespace lamp {
 
 void AmbiguityOptions::visit(OptionVisitor& v) {
   v("ambiguity_distance_m", ambiguity_distance_m, "m",
-    "two accepted hypotheses that lie farther apart are a refusal", kPositive);
+    "two accepted hypotheses that lie farther apart differ", kPositive);
   v("ambiguity_angle_deg", ambiguity_angle_deg, "deg",
-    "two accepted hypotheses that lie farther apart are a refusal", kPositive);
+    "two accepted hypotheses that lie farther apart differ", kPositive);
+  v("ambiguity_overlap", ambiguity_overlap, "",
+    "of two that differ the one with the greater overlap is taken, unless the other has this share "
+    "of it: then both are refused",
+    kShare);
 }
 
 LoopClosureComputation::LoopClosureComputation(
@@ -49,6 +54,7 @@ LoopClosureComputation::Followed LoopClosureComputation::follow(const AlignerOut
     Followed followed = refineAndVerify(source, target, guess, hypothesis);
     if (best.attempt.accepted && followed.attempt.accepted &&
         differ(best.attempt.result, followed.attempt.result)) {
+      if (settle(best, followed, source, target)) continue;
       best.attempt.accepted = false;
       best.attempt.stage = outcome.aligner;
       best.attempt.reason = "ambiguous";
@@ -88,6 +94,17 @@ LoopClosureComputation::Followed LoopClosureComputation::refineAndVerify(
   attempt.accepted = true;
   attempt.stage = "verified";
   return followed;
+}
+
+bool LoopClosureComputation::settle(Followed& best, Followed& other, const PreparedScan& source,
+                                    const PreparedScan& target) const {
+  constexpr double kPartner_m = 0.5;
+  const auto overlap = [&](const Followed& followed) {
+    return agreement(source, target, followed.attempt.result.target_T_source, kPartner_m).overlap;
+  };
+  const double of_best = overlap(best), of_other = overlap(other);
+  if (of_other > of_best) std::swap(best, other);
+  return std::min(of_best, of_other) < ambiguity_.ambiguity_overlap * std::max(of_best, of_other);
 }
 
 bool LoopClosureComputation::differ(const RegistrationResult& a,

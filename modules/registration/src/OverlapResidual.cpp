@@ -16,12 +16,13 @@ Verification OverlapResidual::verify(const RegistrationResult& result, const Pre
                                      const PreparedScan& target, const Guess&) const {
   const Agreement found =
       agreement(source, target, result.target_T_source, options.partner_distance_m);
+  const double max_residual_m = coarseness(source, target) * options.max_residual_m;
   Verification verification;
   verification.scores = {{"overlap", found.overlap, options.min_overlap},
-                         {"residual_m", found.residual_m, options.max_residual_m}};
+                         {"residual_m", found.residual_m, max_residual_m}};
   if (found.overlap < options.min_overlap)
     verification.refusal = "low overlap";
-  else if (found.residual_m > options.max_residual_m)
+  else if (found.residual_m > max_residual_m)
     verification.refusal = "high residual";
   return verification;
 }

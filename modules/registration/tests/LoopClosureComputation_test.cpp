@@ -159,6 +159,28 @@ TEST_F(LoopClosureComputationTest, TwoDifferentAnswersAreNone) {
   EXPECT_EQ(attempt.reason, "ambiguous");
 }
 
+TEST_F(LoopClosureComputationTest, OfTwoDifferentAnswersTheOneWithMuchMoreOverlapIsTaken) {
+  std::vector<Eigen::Vector3f> room;
+  for (float a = 0; a < 6; a += 0.3f)
+    for (float b = 0; b < 3; b += 0.3f) {
+      room.emplace_back(3, a - 3, b - 1);
+      room.emplace_back(-3, a - 3, b - 1);
+      room.emplace_back(a - 3, 3, b - 1);
+    }
+  const auto scan = prepareScan(room, 10, false);
+  for (const std::vector<double>& order : {std::vector<double>{3, 0}, {0, 3}}) {
+    aligner->answer.hypotheses.clear();
+    hypothesesAt(order);
+    const LoopClosureAttempt attempt =
+        LoopClosureComputation({aligner}, refiner, {}, {}).compute(*scan, *scan, {});
+    EXPECT_TRUE(attempt.accepted);
+    EXPECT_DOUBLE_EQ(attempt.result.target_T_source.translation().x(), 0);
+    ASSERT_EQ(attempt.alignments.size(), 1u);
+    EXPECT_EQ(attempt.alignments[0].aligner, "Aligner");
+    EXPECT_EQ(attempt.alignments[0].alignment.hypotheses.size(), 2u);
+  }
+}
+
 TEST_F(LoopClosureComputationTest, AnswersThatDifferWhereNothingIsKnownAreOne) {
   hypothesesAt({3, 5});
   refiner->information.diagonal()[0] = 0;

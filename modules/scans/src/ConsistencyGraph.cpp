@@ -1,7 +1,6 @@
 #include "lamp/scans/ConsistencyGraph.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "VectorKernels.h"
 
@@ -10,13 +9,6 @@ namespace lamp {
 namespace {
 
 using Bits = std::vector<uint64_t>;
-
-LAMP_FOR_SEVERAL_INSTRUCTION_SETS
-size_t count(const uint64_t* a, const uint64_t* b, size_t words) {
-  size_t sum = 0;
-  for (size_t w = 0; w < words; ++w) sum += static_cast<size_t>(__builtin_popcountll(a[w] & b[w]));
-  return sum;
-}
 
 /** Calls `use` with each set bit, ascending. */
 template <class Use>
@@ -47,7 +39,7 @@ class Search {
       erase(v, alive_);
       if (core_[v] < best_.size()) continue;
       std::vector<uint32_t> clique{v};
-      branch(clique, common(alive_, v));
+      branch(clique, common(alive_, v), countCommon(graph_.row(v), alive_.data(), graph_.words()));
     }
     std::sort(best_.begin(), best_.end());
     return best_;
@@ -61,7 +53,7 @@ class Search {
     std::vector<size_t> degree(graph_.size(), 0);
     std::vector<std::vector<uint32_t>> of_degree;
     forBits(alive_, [&](uint32_t v) {
-      degree[v] = count(graph_.row(v), alive_.data(), graph_.words());
+      degree[v] = countCommon(graph_.row(v), alive_.data(), graph_.words());
       if (of_degree.size() <= degree[v]) of_degree.resize(degree[v] + 1);
       of_degree[degree[v]].push_back(v);
     });
@@ -90,46 +82,52 @@ class Search {
     return result;
   }
 
-  struct Choice {
-    uint32_t vertex;
-    size_t kept;  ///< neighbours among the candidates
-  };
-  /** The candidate that keeps most of the others, the first of equals. */
-  std::optional<Choice> mostConnected(const Bits& candidates) const {
-    std::optional<Choice> best;
-    forBits(candidates, [&](uint32_t v) {
-      const size_t kept = count(graph_.row(v), candidates.data(), candidates.size());
-      if (!best || kept > best->kept) best = Choice{v, kept};
-    });
-    return best;
-  }
-
   /** Greedy cliques: always on to the vertex that keeps most candidates. */
   void growFromTheCores() {
     const size_t seeds = std::min(kSeeds, order_.size());
     for (size_t k = 0; k < seeds; ++k) {
       const uint32_t seed = order_[order_.size() - 1 - k];
       if (core_[seed] < best_.size()) return;
-      std::vector<uint32_t> clique{seed};
-      Bits candidates = common(alive_, seed);
-      while (const auto next = mostConnected(candidates)) {
-        clique.push_back(next->vertex);
-        candidates = common(candidates, next->vertex);
-      }
-      if (clique.size() > best_.size()) best_ = clique;
+      std::vector<uint32_t> clique = grownFrom(seed);
+      if (clique.size() > best_.size()) best_ = std::move(clique);
     }
   }
 
-  void branch(std::vector<uint32_t>& clique, Bits candidates) {
+  std::vector<uint32_t> grownFrom(uint32_t seed) const {
+    std::vector<uint32_t> clique{seed}, candidates, left;
+    Bits set = common(alive_, seed);
+    // For each candidate, how many it is connected with; those that go are taken off one by one.
+    std::vector<size_t> kept(graph_.size());
+    forBits(set, [&](uint32_t v) {
+      candidates.push_back(v);
+      kept[v] = countCommon(graph_.row(v), set.data(), set.size());
+    });
+    while (!candidates.empty()) {
+      const uint32_t next =
+          *std::max_element(candidates.begin(), candidates.end(),
+                            [&](uint32_t a, uint32_t b) { return kept[a] < kept[b]; });
+      clique.push_back(next);
+      set = common(set, next);
+      left.clear();
+      for (const uint32_t v : candidates)
+        if (graph_.connected(v, next))
+          left.push_back(v);
+        else
+          forBits(common(set, v), [&](uint32_t u) { --kept[u]; });
+      candidates.swap(left);
+    }
+    return clique;
+  }
+
+  /** \param left how many the candidates are. */
+  void branch(std::vector<uint32_t>& clique, Bits candidates, size_t left) {
     if (clique.size() > best_.size()) best_ = clique;
-    size_t left = 0;
-    for (const uint64_t word : candidates) left += static_cast<size_t>(__builtin_popcountll(word));
     while (left > 0 && clique.size() + left > best_.size()) {
       if (branches_left_ == 0) return;
       --branches_left_;
-      const auto [next, kept] = *mostConnected(candidates);
+      const auto [next, kept] = mostConnected(graph_.row(0), graph_.words(), candidates.data());
       clique.push_back(next);
-      if (clique.size() + kept > best_.size()) branch(clique, common(candidates, next));
+      if (clique.size() + kept > best_.size()) branch(clique, common(candidates, next), kept);
       clique.pop_back();
       erase(next, candidates);
       --left;

@@ -113,13 +113,14 @@ void FeatureOptions::visit(OptionVisitor& v) {
     {10});
 }
 
-Features computeFeatures(const Cloud& cloud, const FeatureOptions& options) {
-  const Cloud means = voxelMeans(cloud, options.voxel_m);
+Features computeFeatures(const Cloud& cloud, const FeatureOptions& options, double coarseness) {
+  const Cloud means = voxelMeans(cloud, coarseness * options.voxel_m);
   const KdTree tree(means.points);
   std::vector<Vector3f> normals =
       surfaceNormals(means.points, tree, options.normal_neighbors, false);
   turnTowardsViewpoints(means, normals);
-  std::vector<NeighborPair> pairs = neighborPairs(means.points, options.descriptor_radius_m);
+  std::vector<NeighborPair> pairs =
+      neighborPairs(means.points, coarseness * options.descriptor_radius_m);
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
                              [&](const NeighborPair& pair) {
                                return normals[pair.i].isZero() || normals[pair.j].isZero();
@@ -134,6 +135,7 @@ Features computeFeatures(const Cloud& cloud, const FeatureOptions& options) {
   const auto chosen =
       mostDistinctive(descriptors, eligible, static_cast<size_t>(options.max_keypoints));
   Features features;
+  features.coarseness = coarseness;
   features.descriptors.resize(Features::kDimensions, static_cast<Eigen::Index>(chosen.size()));
   for (const Eigen::Index i : chosen) {
     features.descriptors.col(static_cast<Eigen::Index>(features.size())) = descriptors.col(i);

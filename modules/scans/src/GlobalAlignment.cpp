@@ -38,7 +38,7 @@ ConsistencyGraph consistencyGraph(const std::vector<Match>& matches, const Featu
                                   const Features& target, const ConsistencyOptions& options) {
   const MatchColumns columns(matches, source, target);
   ConsistencyGraph graph(matches.size());
-  std::vector<unsigned char> consistent(matches.size());
+  std::vector<int32_t> consistent(matches.size());
   for (size_t i = 0; i + 1 < matches.size(); ++i) {
     consistentWith(
         columns.values.data(), columns.count, i, static_cast<float>(2 * options.noise_bound_m),
@@ -111,7 +111,9 @@ void ConsistencyOptions::visit(OptionVisitor& v) {
 
 std::vector<GlobalPose> alignByConsistency(const Features& source, const Features& target,
                                            const std::optional<UncertainPose>& guess,
-                                           const ConsistencyOptions& options) {
+                                           const ConsistencyOptions& given) {
+  ConsistencyOptions options = given;
+  options.noise_bound_m *= std::max(source.coarseness, target.coarseness);
   std::optional<Whereabouts> within;
   if (guess) within = whereabouts(source, *guess, options);
   const std::vector<Match> matches = mutualMatches(source, target, options.match_rank, within);

@@ -125,6 +125,14 @@ void describe(const NormalEquations& equations, IcpResult& result) {
   result.residual_m = std::sqrt(equations.squares / std::max(equations.weights, 1e-12));
 }
 
+/** The options for scans whose points lie farther apart. */
+IcpOptions scaled(IcpOptions options, double coarseness) {
+  options.start_correspondence_m *= coarseness;
+  options.correspondence_m *= coarseness;
+  options.kernel_m *= coarseness;
+  return options;
+}
+
 /** From coarse to fine: how far partners may lie apart, and how many points take part. */
 class Schedule {
  public:
@@ -154,7 +162,7 @@ class Schedule {
   }
 
  private:
-  const IcpOptions& options_;
+  const IcpOptions options_;
   double distance_;
   size_t stride_;
   const size_t fine_stride_;
@@ -180,7 +188,8 @@ void IcpOptions::visit(OptionVisitor& v) {
 }
 
 IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose3& start,
-              IcpMetric metric, const IcpOptions& options) {
+              IcpMetric metric, const IcpOptions& given) {
+  const IcpOptions options = scaled(given, coarseness(source, target));
   IcpResult result;
   result.target_T_source = start;
   const bool planar = source.planar() && target.planar();

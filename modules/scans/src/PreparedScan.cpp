@@ -53,6 +53,28 @@ Cloud inNeighborlyOrder(const Cloud& cloud) {
   return result;
 }
 
+/** Median distance from a point to the nearest other one, metres. */
+float spacing(const Cloud& cloud, const KdTree& tree) {
+  constexpr size_t kSamples = 250;
+  std::vector<float> distances;
+  std::vector<uint32_t> nearest;
+  const size_t stride = std::max<size_t>(1, cloud.size() / kSamples);
+  for (size_t i = 0; i < cloud.size(); i += stride) {
+    tree.nearest(cloud.points[i], 2, nearest);
+    if (nearest.size() == 2)
+      distances.push_back((cloud.points[nearest[0]] - cloud.points[nearest[1]]).norm());
+  }
+  if (distances.empty()) return 0;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+double coarsenessOf(const Cloud& cloud, const KdTree& tree) {
+  constexpr double kUsualSpacing_m = 0.4;
+  return std::max(1.0, spacing(cloud, tree) / kUsualSpacing_m);
+}
+
 }  // namespace
 
 void ScanPreparationOptions::visit(OptionVisitor& v) {
@@ -68,7 +90,8 @@ PreparedScan::PreparedScan(const Cloud& cloud, const ScanPreparationOptions& opt
       cloud_(inNeighborlyOrder(cloud)),
       tree_(cloud_.points),
       normals_(surfaceNormals(cloud_.points, tree_, options.normal_neighbors, planar)),
-      free_space_(cloud_) {
+      free_space_(cloud_),
+      coarseness_(coarsenessOf(cloud_, tree_)) {
   turnTowardsViewpoints(cloud_, normals_);
   for (uint32_t i = 0; i < cloud_.size(); ++i)
     if (cloud_.isOwn(i)) own_.push_back(i);
@@ -78,7 +101,7 @@ PreparedScan::PreparedScan(const Cloud& cloud, const ScanPreparationOptions& opt
 const Features& PreparedScan::features() const {
   std::call_once(features_made_, [this] {
     const Clock::time_point begin = Clock::now();
-    if (!planar_) features_ = computeFeatures(cloud_, feature_options_);
+    if (!planar_) features_ = computeFeatures(cloud_, feature_options_, coarseness_);
     seconds_ = seconds_ + secondsSince(begin);
   });
   return features_;
@@ -91,6 +114,10 @@ size_t PreparedScan::bytes() const {
          free_space_.bytes() +
          std::min(size(), keypoints) *
              (2 * sizeof(Vector3f) + Features::kDimensions * sizeof(float));
+}
+
+double coarseness(const PreparedScan& a, const PreparedScan& b) {
+  return std::max(a.coarseness(), b.coarseness());
 }
 
 PreparedScanPtr prepareScan(std::vector<Vector3f> points, int normal_neighbors, bool planar) {

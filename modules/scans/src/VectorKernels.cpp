@@ -7,7 +7,7 @@ namespace lamp {
 
 LAMP_FOR_SEVERAL_INSTRUCTION_SETS
 void weightedRowSum(const float* rows, size_t columns, const float* weights, size_t count,
-                    float* result) {
+                    float* __restrict result) {
   constexpr size_t kBlock = 64;  // as many sums as stay in registers
   for (size_t first = 0; first < columns; first += kBlock) {
     const size_t width = std::min(kBlock, columns - first);
@@ -25,7 +25,7 @@ void weightedRowSum(const float* rows, size_t columns, const float* weights, siz
 
 LAMP_FOR_SEVERAL_INSTRUCTION_SETS
 void consistentWith(const float* columns, size_t count, size_t i, float distance, float angle,
-                    unsigned char* consistent) {
+                    int32_t* __restrict consistent) {
   const float *px = columns, *py = px + count, *pz = py + count;
   const float *qx = pz + count, *qy = qx + count, *qz = qy + count;
   const float *mx = qz + count, *my = mx + count, *mz = my + count;
@@ -43,10 +43,34 @@ void consistentWith(const float* columns, size_t count, size_t i, float distance
     const float height_j =
         std::abs(mx[j] * ax + my[j] * ay + mz[j] * az - (nx[j] * bx + ny[j] * by + nz[j] * bz));
     const float most_height = distance + angle * length;
-    consistent[j] =
-        static_cast<unsigned char>((difference <= distance) & (cosines <= angle) &
-                                   (height_i <= most_height) & (height_j <= most_height));
+    consistent[j] = static_cast<int32_t>((difference <= distance) & (cosines <= angle) &
+                                         (height_i <= most_height) & (height_j <= most_height));
   }
+}
+
+LAMP_FOR_SEVERAL_INSTRUCTION_SETS
+size_t countCommon(const uint64_t* a, const uint64_t* b, size_t words) {
+  size_t sum = 0;
+  for (size_t w = 0; w < words; ++w) sum += static_cast<size_t>(__builtin_popcountll(a[w] & b[w]));
+  return sum;
+}
+
+LAMP_FOR_SEVERAL_INSTRUCTION_SETS
+Connections mostConnected(const uint64_t* rows, size_t words, const uint64_t* set) {
+  Connections most;
+  bool found = false;
+  for (size_t w = 0; w < words; ++w)
+    for (uint64_t rest = set[w]; rest != 0; rest &= rest - 1) {
+      const size_t vertex = 64 * w + static_cast<size_t>(__builtin_ctzll(rest));
+      const uint64_t* row = rows + vertex * words;
+      size_t count = 0;
+      for (size_t k = 0; k < words; ++k)
+        count += static_cast<size_t>(__builtin_popcountll(row[k] & set[k]));
+      if (found && count <= most.count) continue;
+      most = {static_cast<uint32_t>(vertex), count};
+      found = true;
+    }
+  return most;
 }
 
 }  // namespace lamp

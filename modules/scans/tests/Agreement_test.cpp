@@ -20,6 +20,33 @@ TEST(Agreement, IsFullForTheSameRoomAndLowForAShiftedOne) {
   EXPECT_EQ(agreement(*a, *prepareScan({}, 10, false), Pose3::Identity(), 0.3).overlap, 0.0);
 }
 
+TEST(Agreement, OverlapIsWhatBothHaveSeenThemselves) {
+  // The neighbour adds what lies behind the target's own lidar.
+  Cloud cloud = cloudSeenFromOrigin(roomPoints(6000, 0.01f, 1));
+  cloud.viewpoints.push_back(cloud.viewpoints.front());
+  for (size_t i = 0; i < cloud.size(); ++i) cloud.viewpoint[i] = cloud.points[i].x() < 0 ? 1 : 0;
+  const PreparedScan target(cloud, {}, false);
+  const auto source = prepareScan(roomPoints(3000, 0.01f, 2), 10, false);
+  const Agreement found = agreement(*source, target, Pose3::Identity(), 0.3);
+  EXPECT_NEAR(found.overlap, static_cast<double>(target.own().size()) / 6000, 0.1);
+  EXPECT_LT(found.overlap, 0.7);
+  EXPECT_GT(static_cast<double>(found.matches) / 2000, 0.9) << "the residual counts all";
+}
+
+TEST(Agreement, LengthsGrowWithTheSpacingOfThePoints) {
+  const auto scaledRoom = [](float scale, unsigned seed) {
+    auto points = roomPoints(800, 0.01f, seed);
+    for (auto& p : points) p *= scale;
+    return prepareScan(points, 10, false);
+  };
+  const auto at = [](double scale) { return Pose3(Eigen::Translation3d(0.1 * scale, 0, 0)); };
+  const Agreement small = agreement(*scaledRoom(4, 1), *scaledRoom(4, 2), at(4), 0.3);
+  const Agreement large = agreement(*scaledRoom(8, 1), *scaledRoom(8, 2), at(8), 0.3);
+  EXPECT_GT(small.overlap, 0.2);
+  EXPECT_NEAR(small.overlap, large.overlap, 0.01);
+  EXPECT_NEAR(2 * small.residual_m, large.residual_m, 0.01);
+}
+
 TEST(ShareInFreeSpace, IsSmallAtTheRightPoseAndLargeWhereRaysPassed) {
   // The lidar at eye level, so that no surface is seen edge on.
   auto points = roomPoints(6000, 0.0f, 1);

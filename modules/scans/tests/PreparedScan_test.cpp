@@ -32,6 +32,15 @@ TEST(PreparedScan, PlanarNormalsLieInThePlaneAndThereAreNoFeatures) {
   EXPECT_EQ(scan->features().size(), 0u);
 }
 
+TEST(PreparedScan, CoarsenessIsThatOfSparsePoints) {
+  EXPECT_EQ(prepareScan(roomPoints(6000, 0.01f, 1), 10, false)->coarseness(), 1.0);
+  std::vector<Vector3f> grid;
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 20; ++j) grid.emplace_back(1.2f * i, 1.2f * j, 0.0f);
+  EXPECT_NEAR(prepareScan(grid, 10, false)->coarseness(), 3.0, 1e-5);
+  EXPECT_EQ(prepareScan({{1, 2, 3}}, 10, false)->coarseness(), 1.0);
+}
+
 TEST(PreparedScan, LeavesOutWhatIsNoPlace) {
   const auto scan = prepareScan(
       {{1, 2, 3}, {NAN, 0, 0}, {0, -INFINITY, 0}, {3e38f, 3e38f, 0}, {2e6f, 0, 0}, {9e5f, 0, 0}},

@@ -10,10 +10,11 @@
 
 namespace lamp {
 
-/** When two accepted hypotheses of one pair are different answers. */
+/** When two accepted hypotheses of one pair are different answers, and as good. */
 struct AmbiguityOptions {
   double ambiguity_distance_m = 1.0;
   double ambiguity_angle_deg = 10.0;
+  double ambiguity_overlap = 0.8;
 
   void visit(OptionVisitor& v);
 };
@@ -37,8 +38,8 @@ struct LoopClosureAttempt {
 /** Align, refine, verify (paper II-C, "Loop closure computation").
  *
  * The aligners are asked in turn until one's hypotheses lead to a loop closure. All hypotheses of
- * an aligner are followed to the end: if two that differ are accepted, the scans look alike in two
- * ways, and there is no telling which is right.
+ * an aligner are followed to the end: if two that differ are accepted, and explain about as much of
+ * the source, the scans look alike in two ways, and there is no telling which is right.
  */
 class LoopClosureComputation {
  public:
@@ -63,6 +64,9 @@ class LoopClosureComputation {
   Followed refineAndVerify(const PreparedScan& source, const PreparedScan& target,
                            const Guess& guess, const Hypothesis& hypothesis) const;
   bool differ(const RegistrationResult& a, const RegistrationResult& b) const;
+  /** Keeps the better of two accepted attempts that differ. \return whether one is. */
+  bool settle(Followed& best, Followed& other, const PreparedScan& source,
+              const PreparedScan& target) const;
 
   std::vector<std::shared_ptr<const InitialAligner>> aligners_;
   std::shared_ptr<const Refiner> refiner_;

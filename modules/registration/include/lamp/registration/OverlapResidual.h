@@ -5,9 +5,9 @@
 namespace lamp {
 
 struct OverlapResidualOptions {
-  double min_overlap = 0.45;
-  double max_residual_m = 0.1;
-  double partner_distance_m = 0.3;
+  double min_overlap = 0.27;
+  double max_residual_m = 0.12;
+  double partner_distance_m = 0.5;
 
   void visit(OptionVisitor& v);
 };

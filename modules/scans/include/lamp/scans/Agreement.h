@@ -7,19 +7,22 @@ namespace lamp {
 
 /** How well two scans agree at a relative pose. */
 struct Agreement {
-  double overlap = 0;     ///< share of source points with a partner of like normal
-  double residual_m = 0;  ///< r.m.s. point-to-plane distance of those
-  size_t matches = 0;
+  /** Share of the source's own points with a partner of like normal among the target's own: what
+   * the two scans themselves share, whatever their neighbours add. */
+  double overlap = 0;
+  double residual_m = 0;  ///< r.m.s. point-to-plane distance of points with any partner
+  size_t matches = 0;     ///< those
 };
 
-/** \param distance_m how near a partner must be; its normal must agree within 45°, and both must
- * have been seen from the same side: a floor is no ceiling. */
+/** \param distance_m how near a partner must be, for scans of coarseness 1; its normal must agree
+ * within 45°, and both must have been seen from the same side: a floor is no ceiling. */
 Agreement agreement(const PreparedScan& source, const PreparedScan& target,
                     const Pose3& target_T_source, double distance_m);
 
 /** Share of the scan's points that lie where the other's rays passed, among those of which its rays
  * say anything; 0 if there are none.
- * \param other_T_scan pose of the scan; \param margin_m see FreeSpace::at(). */
+ * \param other_T_scan pose of the scan; \param margin_m see FreeSpace::at(), for scans of
+ * coarseness 1. */
 double shareInFreeSpace(const PreparedScan& scan, const PreparedScan& other,
                         const Pose3& other_T_scan, double margin_m);
 

@@ -9,9 +9,9 @@
 namespace lamp {
 
 struct FeatureOptions {
-  double voxel_m = 0.6;
+  double voxel_m = 0.4;
   int normal_neighbors = 12;
-  double descriptor_radius_m = 2.5;
+  double descriptor_radius_m = 2.0;
   int max_keypoints = 1000;
 
   void visit(OptionVisitor& v);
@@ -25,13 +25,14 @@ struct Features {
   std::vector<Eigen::Vector3f> points;   ///< in the frame of the cloud, metres
   std::vector<Eigen::Vector3f> normals;  ///< unit length, towards where the point was seen from
   Descriptors descriptors;               ///< a column a keypoint, of unit length
+  double coarseness = 1;                 ///< of the cloud, see PreparedScan::coarseness()
 
   size_t size() const { return points.size(); }
 };
 
 /** Computed on the means of voxels, so that descriptors depend little on how densely a surface was
  * sampled. Of too many points the most distinctive ones stay: those whose descriptors differ most
- * from the cloud's mean. */
-Features computeFeatures(const Cloud& cloud, const FeatureOptions& options);
+ * from the cloud's mean. \param coarseness multiplies the lengths of the options. */
+Features computeFeatures(const Cloud& cloud, const FeatureOptions& options, double coarseness = 1);
 
 }  // namespace lamp

@@ -17,10 +17,10 @@ struct GlobalPose {
 };
 
 struct ConsistencyOptions {
-  int match_rank = 3;
-  double noise_bound_m = 0.4;
+  int match_rank = 5;
+  double noise_bound_m = 0.25;
   double max_normal_angle_deg = 30;
-  int min_inliers = 8;
+  int min_inliers = 6;
   int max_hypotheses = 3;
   bool upright = false;
   double guess_probability = 0.99;

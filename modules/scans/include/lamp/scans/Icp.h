@@ -44,7 +44,8 @@ struct IcpResult {
 /** Aligns source to target by Gauss-Newton from a start pose. Matches are searched within a
  * distance that shrinks from iteration to iteration; a Geman-McClure kernel takes the weight from
  * the bad ones. The first iterations look at a part of the source's points. Planar scans are
- * aligned in x, y and yaw only, the other coordinates keep the start's. */
+ * aligned in x, y and yaw only, the other coordinates keep the start's. Lengths of the
+ * options grow with the coarseness of the scans. */
 IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose3& start,
               IcpMetric metric, const IcpOptions& options);
 

@@ -43,6 +43,7 @@ class PreparedScan {
   /** Places of the scan's own points among all: as a source only these are used, as a target the
    * neighbours' points, too. */
   const std::vector<uint32_t>& own() const { return own_; }
+  bool isOwn(size_t i) const { return cloud_.isOwn(i); }
   /** In the frame of the key node, metres. */
   const std::vector<Eigen::Vector3f>& points() const { return cloud_.points; }
   /** Unit length, towards the lidar that saw the point; zero where the surface is unknown. */
@@ -52,6 +53,9 @@ class PreparedScan {
   const FreeSpace& freeSpace() const { return free_space_; }
   /** Computed when first asked for: not every aligner needs them. */
   const Features& features() const;
+  /** How much farther apart its points lie than those of the scans that lengths among the options
+   * of registration were chosen for; 1 for denser scans. Such lengths grow with it. */
+  double coarseness() const { return coarseness_; }
   /** Memory, with features, whether they have been asked for or not. */
   size_t bytes() const;
   /** Time spent on all of it so far. */
@@ -66,11 +70,15 @@ class PreparedScan {
   std::vector<Eigen::Vector3f> normals_;
   std::vector<uint32_t> own_;
   const FreeSpace free_space_;
+  const double coarseness_;
   mutable std::once_flag features_made_;
   mutable Features features_;
   mutable std::atomic<double> seconds_{0};
 };
 using PreparedScanPtr = std::shared_ptr<const PreparedScan>;
+
+/** That of the coarser of the two. */
+double coarseness(const PreparedScan& a, const PreparedScan& b);
 
 /** Points in a frame at whose origin the lidar stood. */
 PreparedScanPtr prepareScan(std::vector<Eigen::Vector3f> points, int normal_neighbors, bool planar);
