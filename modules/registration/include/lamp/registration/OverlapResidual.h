@@ -5,7 +5,7 @@
 namespace lamp {
 
 struct OverlapResidualOptions {
-  double min_overlap = 0.27;
+  double min_overlap = 0.35;
   double max_residual_m = 0.12;
   double partner_distance_m = 0.5;
 
