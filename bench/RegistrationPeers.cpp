@@ -70,9 +70,10 @@ void printTimes(const char* name, const Comparisons& all, double Outcome::*time,
     peer_times.push_back((*c.peer).*time);
     ratios.push_back(c.ours.*time / ((*c.peer).*time));
   }
-  std::printf("  %-22s %4zu %8.2f %8.2f   %.4f = 1/%.1f\n", name, our_times.size(),
-              median(our_times), median(peer_times), median(ratios),
-              1 / std::max(median(ratios), 1e-9));
+  std::printf("  %-22s %4zu %8.2f", name, our_times.size(), median(our_times));
+  if (!ratios.empty())
+    std::printf(" %8.2f   %.4f = 1/%.1f", median(peer_times), median(ratios), 1 / median(ratios));
+  std::printf("\n");
 }
 
 void printAllTimes(const Comparisons& all) {

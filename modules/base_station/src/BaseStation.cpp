@@ -198,6 +198,7 @@ void BaseStation::record(const LoopClosureCandidate& candidate, const Guess& gue
     ++loops_;
     optimized_all_ = false;
   }
+  attempt.alignments = {};  // the ledger keeps the refined pose only
   row.outcome = std::move(attempt);
   ledger_.add(std::move(row));
 }

@@ -98,9 +98,9 @@ LoopClosureComputation::Followed LoopClosureComputation::refineAndVerify(
 
 bool LoopClosureComputation::settle(Followed& best, Followed& other, const PreparedScan& source,
                                     const PreparedScan& target) const {
-  constexpr double kPartner_m = 0.5;
   const auto overlap = [&](const Followed& followed) {
-    return agreement(source, target, followed.attempt.result.target_T_source, kPartner_m).overlap;
+    return agreement(source, target, followed.attempt.result.target_T_source, kPartnerDistance_m)
+        .overlap;
   };
   const double of_best = overlap(best), of_other = overlap(other);
   if (of_other > of_best) std::swap(best, other);

@@ -1,13 +1,12 @@
 #include "lamp/registration/OverlapResidual.h"
 
-#include "lamp/scans/Agreement.h"
-
 IMPLEMENTS_MRPT_OBJECT(OverlapResidual, lamp::Verifier, lamp)
 
 namespace lamp {
 
 void OverlapResidualOptions::visit(OptionVisitor& v) {
-  v("min_overlap", min_overlap, "", "share of the source's points that need a partner", kShare);
+  v("min_overlap", min_overlap, "",
+    "share of the source's own points that need a partner among the target's own", kShare);
   v("max_residual_m", max_residual_m, "m", "largest r.m.s. point-to-plane distance", kPositive);
   v("partner_distance_m", partner_distance_m, "m", "how near a partner must lie", kPositive);
 }

@@ -1,18 +1,20 @@
 #pragma once
 
 #include "lamp/registration/Verifier.h"
+#include "lamp/scans/Agreement.h"
 
 namespace lamp {
 
 struct OverlapResidualOptions {
   double min_overlap = 0.35;
   double max_residual_m = 0.12;
-  double partner_distance_m = 0.5;
+  double partner_distance_m = kPartnerDistance_m;
 
   void visit(OptionVisitor& v);
 };
 
-/** Enough of the source must lie on the target, and close to it. */
+/** Both scans themselves must have seen enough in common, and the source must lie close to the
+ * target. */
 class OverlapResidual : public Verifier {
   DEFINE_MRPT_OBJECT(OverlapResidual, lamp)
 

@@ -14,6 +14,9 @@ struct Agreement {
   size_t matches = 0;     ///< those
 };
 
+/** How near partners lie in scans of coarseness 1, metres: a little more than their spacing. */
+constexpr double kPartnerDistance_m = 0.5;
+
 /** \param distance_m how near a partner must be, for scans of coarseness 1; its normal must agree
  * within 45°, and both must have been seen from the same side: a floor is no ceiling. */
 Agreement agreement(const PreparedScan& source, const PreparedScan& target,
