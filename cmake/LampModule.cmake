@@ -33,6 +33,7 @@ endfunction()
 function(lamp_add_test target label)
   add_executable(${target} ${ARGN})
   target_link_libraries(${target} PRIVATE GTest::gtest GTest::gmock GTest::gtest_main lamp_warnings)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_compile_options(${target} PRIVATE ${LAMP_TEST_OPTIONS})
   target_precompile_headers(${target} REUSE_FROM lamp_precompiled_tests)
   target_compile_definitions(${target} PRIVATE

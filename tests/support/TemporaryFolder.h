@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <deque>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -12,7 +13,7 @@ namespace lamp::test {
 /** A new, empty folder that goes with the object. */
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(testing::TempDir() + "lamp_system_XXXXXX") {
+  TemporaryFolder() : path_(testing::TempDir() + "lamp_test_XXXXXX") {
     if (!::mkdtemp(path_.data())) throw std::runtime_error("cannot make a folder like " + path_);
   }
   ~TemporaryFolder() {
@@ -28,5 +29,11 @@ class TemporaryFolder {
  private:
   std::string path_;
 };
+
+/** A new, empty folder, different on every call, that goes when the test program ends. */
+inline std::string freshFolder() {
+  static std::deque<TemporaryFolder> folders;
+  return folders.emplace_back().path();
+}
 
 }  // namespace lamp::test

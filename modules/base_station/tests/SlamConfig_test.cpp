@@ -2,10 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
+#include "TemporaryFolder.h"
 #include "TestTeam.h"
 #include "lamp/core/Files.h"
 #include "lamp/registration/OverlapResidual.h"
@@ -32,13 +32,9 @@ std::string faultsOf(const std::string& text) {
 
 /** An ini file of the running test's own. */
 std::string iniFile(const std::string& text) {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::path(testing::TempDir()) /
-                      ("lamp_base_station_" + std::to_string(::getpid()) + "_" + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  writeTextFile((folder / "wrong.ini").string(), text);
-  return (folder / "wrong.ini").string();
+  const std::string path = test::freshFolder() + "/wrong.ini";
+  writeTextFile(path, text);
+  return path;
 }
 
 TEST(SlamConfig, AnEmptyIniGivesTheDefaults) {

@@ -1,27 +1,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <functional>
 #include <random>
 #include <string>
 
+#include "TemporaryFolder.h"
 #include "lamp/core/Geometry.h"
 
 namespace lamp::test {
-
-/** A fresh, empty folder for the files of one test. */
-inline std::string freshFolder() {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / ("lamp_core_" + std::to_string(::getpid()) + "_" +
-                                                   info->test_suite_name() + "_" + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder.string();
-}
 
 /** What the call throws, or an empty string. */
 inline std::string thrownBy(const std::function<void()>& call) {

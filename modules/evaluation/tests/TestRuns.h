@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "TemporaryFolder.h"
 #include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 #include "lamp/core/RunFolder.h"
@@ -17,17 +17,6 @@
 namespace lamp::test {
 
 constexpr double kDegree = M_PI / 180.0;
-
-/** A fresh, empty folder for the files of one test. */
-inline std::string freshFolder() {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) /
-                                       ("lamp_evaluation_" + std::to_string(::getpid()) + "_" +
-                                        info->test_suite_name() + "_" + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder.string();
-}
 
 /** What the call throws, or an empty string. */
 inline std::string thrownBy(const std::function<void()>& call) {

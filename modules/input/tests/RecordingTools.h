@@ -17,19 +17,11 @@
 #include <string>
 #include <vector>
 
+#include "TemporaryFolder.h"
+
 namespace lamp::test {
 
 using Objects = std::vector<mrpt::serialization::CSerializable::Ptr>;
-
-/** An empty folder of the running test's own. */
-inline std::string freshFolder() {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::path(testing::TempDir()) /
-                      (std::string("lamp_input_") + info->test_suite_name() + "_" + info->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder.string();
-}
 
 inline std::string bytesOf(const mrpt::serialization::CSerializable& object) {
   mrpt::io::CMemoryStream memory;

@@ -10,19 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "TemporaryFolder.h"
 #include "lamp/maps/MapExporter.h"
 
 namespace lamp {
 
-/** A new folder of the running test. */
-inline std::string freshFolder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "lamp_maps" /
-                                       (std::string(test->test_suite_name()) + "." + test->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder.string();
-}
+using test::freshFolder;
 
 inline std::string bytesOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "TemporaryFolder.h"
 #include "TestGraphs.h"
 #include "lamp/core/Files.h"
 #include "lamp/pose_graph/G2oFile.h"
@@ -13,21 +13,18 @@
 namespace lamp {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 class PgoApp : public testing::Test {
  protected:
-  PgoApp() : folder_(fs::path(testing::TempDir()) / "lamp_pgo_test") {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+  PgoApp() {
     WorldOptions options;
     options.robots = 1;
     options.loops = 100;
     writeTextFile(file("graph.g2o"), toG2o(makeWorld(options).graph));
   }
 
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string file(const std::string& name) const { return folder_ / name; }
 
   int run(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "lamp-pgo");
@@ -48,7 +45,7 @@ class PgoApp : public testing::Test {
   std::string out, err;
 
  private:
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(PgoApp, FindsTheFalseLoopsThatItAdded) {

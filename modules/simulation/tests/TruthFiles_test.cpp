@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <random>
 
 #include "MeshTools.h"
 #include "SmallMission.h"
+#include "TemporaryFolder.h"
 #include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 
@@ -20,11 +20,8 @@ using namespace test;
 /** A file that goes with the test. */
 class TruthFiles : public testing::Test {
  protected:
-  TruthFiles()
-      : path_(testing::TempDir() + "lamp_truth_" +
-              testing::UnitTest::GetInstance()->current_test_info()->name()) {}
-  ~TruthFiles() override { std::filesystem::remove(path_); }
-  const std::string path_;
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_ / "truth";
 };
 
 struct Sample {

@@ -2,10 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-
+#include "TemporaryFolder.h"
 #include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 
@@ -16,12 +14,9 @@ using testing::HasSubstr;
 
 /** A file of the running test's own. */
 std::string fileWith(const std::string& text) {
-  const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::path(testing::TempDir()) /
-                      ("lamp_arrivals_" + std::to_string(::getpid()) + "_" + info->name());
-  std::filesystem::create_directories(folder);
-  writeTextFile((folder / "A.arrivals.csv").string(), text);
-  return (folder / "A.arrivals.csv").string();
+  const std::string path = test::freshFolder() + "/A.arrivals.csv";
+  writeTextFile(path, text);
+  return path;
 }
 
 /** What is said of a file, without its folder. */
