@@ -244,6 +244,12 @@ std::string describe(const std::string& start, const TruePair& pair,
        << attempt.accepted << "," << attempt.reason << "," << first.m << "," << first.deg << ","
        << last.m << "," << last.deg;
   for (const Score& score : attempt.scores) line << "," << score.name << "=" << score.value;
+  if (attempt.accepted && result.unobserved.empty()) {
+    const Vector6d d = logSE3(result.target_T_source.inverse() * pair.from_T_to);
+    line << ",d2=" << d.dot(result.information * d);
+    const Eigen::Matrix<double, 6, 1> n = d.cwiseAbs2().cwiseQuotient(result.information.inverse().diagonal());
+    for (int k = 0; k < 6; ++k) line << ",n" << k << "=" << n[k];
+  }
   return line.str();
 }
 

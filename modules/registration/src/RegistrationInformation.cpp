@@ -76,9 +76,9 @@ void RegistrationInformationOptions::visit(OptionVisitor& v) {
     "the same for rotations, as lengths at the points' r.m.s. distance: about a tunnel's axis the "
     "levers are short",
     kShare);
-  v("floor_sigma_m", floor_sigma_m, "m", "added to each coordinate: what the model leaves out",
-    kPositive);
-  v("floor_sigma_deg", floor_sigma_deg, "deg", "added to each angle: what the model leaves out",
+  v("common_share", common_share, "",
+    "share of the patches' deviation that is the same in all of them (a bent scan), so that no "
+    "number of patches averages it out",
     kPositive);
 }
 
@@ -98,12 +98,10 @@ RegistrationInformation registrationInformation(const IcpResult& icp,
   if (Q.cols() == 0) return result;
 
   const double variance = options.sigma_m * options.sigma_m + icp.residual_m * icp.residual_m;
-  Vector6d floor;
-  floor.head<3>().setConstant(options.floor_sigma_m * options.floor_sigma_m);
-  floor.tail<3>().setConstant(std::pow(options.floor_sigma_deg * M_PI / 180.0 * icp.radius_m, 2));
+  const double common = options.common_share * options.common_share * variance;
   const MatrixXd A = Q.transpose() * scaled * Q * icp.patches / variance;
-  const MatrixXd covariance =
-      A.completeOrthogonalDecomposition().pseudoInverse() + Q.transpose() * floor.asDiagonal() * Q;
+  const MatrixXd covariance = A.completeOrthogonalDecomposition().pseudoInverse() +
+                              common * MatrixXd::Identity(Q.cols(), Q.cols());
   const Matrix6d about_pivot = Q * covariance.inverse() * Q.transpose();
   // Back from lengths to radians, and from the pivot to the tangent space at the pose.
   Matrix6d to_scaled = Matrix6d::Identity();

@@ -72,8 +72,9 @@ TEST(RegistrationInformation, IsTheInverseOfTheModelsCovarianceWhereAllIsObserve
   EXPECT_TRUE(known.unobserved.empty());
   const double variance = 0.04 * 0.04 + options.sigma_m * options.sigma_m;
   Matrix6d expected = variance * (icp.information * icp.patches / icp.weights).inverse();
-  expected.diagonal().head<3>().array() += options.floor_sigma_m * options.floor_sigma_m;
-  expected.diagonal().tail<3>().array() += std::pow(options.floor_sigma_deg * kDegree, 2);
+  const double common = options.common_share * options.common_share * variance;
+  expected.diagonal().head<3>().array() += common;
+  expected.diagonal().tail<3>().array() += common / (icp.radius_m * icp.radius_m);
   EXPECT_LT((known.information.inverse() - expected).norm(), 1e-9 * expected.norm());
 }
 
@@ -148,7 +149,7 @@ TEST(RegistrationInformation, FewerPatchesKnowLess) {
   IcpResult few = icpOn(room()), many = few;
   many.patches = 10 * few.patches;
   RegistrationInformationOptions options;
-  options.floor_sigma_m = options.floor_sigma_deg = 1e-9;
+  options.common_share = 1e-9;
   const double of_few = registrationInformation(few, options, false).information(0, 0);
   const double of_many = registrationInformation(many, options, false).information(0, 0);
   EXPECT_NEAR(of_many, 10 * of_few, 1e-6 * of_many);

@@ -10,11 +10,10 @@
 namespace lamp {
 
 struct RegistrationInformationOptions {
-  double sigma_m = 0.03;
+  double sigma_m = 0.015;
   double min_translation_observability = 0.01;
   double min_rotation_observability = 0.002;
-  double floor_sigma_m = 0.035;
-  double floor_sigma_deg = 0.12;
+  double common_share = 0.65;
 
   void visit(OptionVisitor& v);
 };
@@ -29,7 +28,8 @@ struct RegistrationInformation {
 
 /** From the information matrix A of point-to-plane ICP: covariance `σ² A⁻¹`, σ² the residual's
  * variance plus the model's, A counted by independent patches of surface instead of points (what is
- * wrong with one point is wrong with its neighbours); a floor for what the model leaves out.
+ * wrong with one point is wrong with its neighbours); and of σ² a share that all patches have in
+ * common, in every direction, rotations as lengths at the points' r.m.s. distance.
  *
  * Directions of which the scans say next to nothing (the axis of a tunnel) get no information
  * instead of little: noise looks like some (paper II-C; Zhang, Kaess, Singh, ICRA 2016). */
