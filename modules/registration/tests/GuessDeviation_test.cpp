@@ -46,10 +46,14 @@ TEST_F(GuessDeviationTest, ScoreIsTheMahalanobisDistanceWithAllThreeVariances) {
   verifier.options.slack_deg = 6;
   const Verification verification =
       verify(T * expSE3(tangent(0, 1.2, 0, 0, 0, 0)), guess(T, 0.5, 0.1));
-  ASSERT_EQ(verification.scores.size(), 1u);
+  ASSERT_EQ(verification.scores.size(), 2u);
   EXPECT_EQ(verification.scores[0].name, "guess_chi2");
   EXPECT_NEAR(verification.scores[0].value, 1.44 / (0.25 + 0.01 + 0.16), 1e-9);
   EXPECT_NEAR(*verification.scores[0].threshold, chiSquareQuantile(verifier.options.probability, 6),
+              1e-12);
+  EXPECT_EQ(verification.scores[1].name, "guess_position_chi2");
+  EXPECT_NEAR(verification.scores[1].value, verification.scores[0].value, 1e-9) << "not turned";
+  EXPECT_NEAR(*verification.scores[1].threshold, chiSquareQuantile(verifier.options.probability, 3),
               1e-12);
   const double turned = 0.3;
   EXPECT_NEAR(
@@ -58,17 +62,38 @@ TEST_F(GuessDeviationTest, ScoreIsTheMahalanobisDistanceWithAllThreeVariances) {
 }
 
 TEST_F(GuessDeviationTest, RefusesBeyondTheQuantile) {
-  // All variances on x sum to one, so that the limit is the root of the quantile.
+  // All variances on x sum to one, so that the limit is the root of the quantile of the position.
   verifier.options.slack_m = 0.3;
   const double sigma = std::sqrt(1.0 - 0.01 - 0.09);
   for (const bool planar : {false, true}) {
-    const double limit = std::sqrt(chiSquareQuantile(verifier.options.probability, planar ? 3 : 6));
+    const double limit = std::sqrt(chiSquareQuantile(verifier.options.probability, planar ? 2 : 3));
     const auto at = [&](double distance) {
       return verify(T * planarPose(distance, 0, 0), guess(T, sigma, 0.1), planar);
     };
     EXPECT_TRUE(at(limit - 0.01).accepted());
     EXPECT_EQ(at(limit + 0.01).refusal, "far from the guess");
   }
+}
+
+TEST_F(GuessDeviationTest, PositionIsNotExcusedByTheRotation) {
+  // Together within the quantile of six directions; the shift alone is beyond that of three.
+  const Vector6d shift = tangent(0, 0, 3.6, 0, 0, 0);
+  const Verification verification = verify(T * expSE3(shift), guess(T, std::sqrt(0.9), 0.1));
+  EXPECT_LT(verification.scores[0].value, *verification.scores[0].threshold);
+  EXPECT_EQ(verification.refusal, "far from the guess");
+}
+
+TEST_F(GuessDeviationTest, PositionThatIsUncertainBecauseTheRotationIs) {
+  // A guess that is wrong in yaw puts a place 20 m ahead aside: the covariance says so.
+  Guess far = guess(T, 0.1, 0.02);
+  const Pose3 lever = Pose3(Eigen::Translation3d(20, 0, 0));
+  const Matrix6d J = adjoint(lever.inverse());
+  far.covariance = J * *far.covariance * J.transpose();
+  far.target_T_source = T * lever;
+  const Pose3 result = T * expSE3(tangent(0, 0, 0, 0, 0, 0.04)) * lever;
+  EXPECT_TRUE(verify(result, far).accepted());
+  EXPECT_FALSE(verify(far.target_T_source * planarPose(2.5, 0, 0), far).accepted())
+      << "the same distance ahead";
 }
 
 TEST_F(GuessDeviationTest, ALessCertainGuessLetsMoreThrough) {

@@ -13,7 +13,9 @@ struct GuessDeviationOptions {
 };
 
 /** The result must not lie farther from the guess than the guess's own uncertainty allows: the
- * squared Mahalanobis distance stays below the χ² quantile. A slack keeps an overconfident graph
+ * squared Mahalanobis distance stays below the χ² quantile, and so does that of the position alone:
+ * places that look alike mostly lie the same way round, and three right angles would excuse a
+ * position that is far off (the storeys of a building). A slack keeps an overconfident graph
  * from refusing everything. */
 class GuessDeviation : public Verifier {
   DEFINE_MRPT_OBJECT(GuessDeviation, lamp)
