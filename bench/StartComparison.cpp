@@ -19,7 +19,7 @@
 #include "lamp/core/Csv.h"
 #include "lamp/core/Program.h"
 #include "lamp/input/RawlogSource.h"
-#include "lamp/pose_graph/ShortestPathUncertainty.h"
+#include "lamp/pose_graph/MarginalCovariances.h"
 #include "lamp/registration/ObservedPart.h"
 
 namespace lamp {
@@ -203,7 +203,7 @@ class Team {
   BaseStation base_;
   RobotTable robots_;
   PreparedScanStore scans_;
-  std::optional<ShortestPathUncertainty> uncertainty_;
+  std::optional<MarginalCovariances> uncertainty_;
 };
 
 /** Adds one attempt to the tally. */

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "lamp/pose_graph/ShortestPathUncertainty.h"
+#include "lamp/pose_graph/MarginalCovariances.h"
 
 namespace lamp {
 
@@ -120,7 +120,7 @@ bool BaseStation::isWorthTrying(const LoopClosureCandidate& candidate) const {
 
 void BaseStation::computeRound(size_t budget) {
   if (queue_.size() == 0) return;
-  const ShortestPathUncertainty uncertainty(graph_);
+  const MarginalCovariances uncertainty(graph_);
   std::vector<LoopClosureCandidate> candidates;
   {
     const CTimeLoggerEntry timing(timer_, "loop_priority");

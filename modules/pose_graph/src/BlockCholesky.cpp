@@ -1,6 +1,7 @@
 #include "BlockCholesky.h"
 
 #include <cmath>
+#include <unordered_map>
 
 #include "BlockKernels.h"
 
@@ -127,6 +128,31 @@ void BlockCholesky<kSize>::solve(Eigen::VectorXd& x) const {
   }
   for (int row = 0; row < symbolic_.size(); ++row)
     x.segment<kSize>(kSize * row) = y[symbolic_.place(row)];
+}
+
+template <int kSize>
+std::vector<typename BlockCholesky<kSize>::InverseBlock> BlockCholesky<kSize>::inverseColumn(
+    int row) const {
+  // A column of the factor reaches none but its ancestors in the elimination tree, of which the
+  // first below the diagonal is the parent.
+  const int* const rows = symbolic_.rows().data();
+  std::vector<InverseBlock> column;
+  std::unordered_map<int, size_t> at;
+  for (int place = symbolic_.place(row);;) {
+    at.emplace(place, column.size());
+    column.push_back({place, Block::Zero()});
+    const int parent = symbolic_.columnBegin(place) + 1;
+    if (parent == symbolic_.columnEnd(place)) break;
+    place = rows[parent];
+  }
+  column[0].block.setIdentity();
+  for (InverseBlock& item : column) {
+    const int begin = symbolic_.columnBegin(item.place), end = symbolic_.columnEnd(item.place);
+    item.block = (blocks_[begin] * item.block).eval();
+    for (int entry = begin + 1; entry < end; ++entry)
+      column[at[rows[entry]]].block.noalias() -= blocks_[entry] * item.block;
+  }
+  return column;
 }
 
 template class BlockCholesky<3>;

@@ -27,6 +27,15 @@ class BlockCholesky {
   /** Solves for one vector, in place; the last factorize() must have succeeded. */
   void solve(Eigen::VectorXd& x) const;
 
+  /** A block of L⁻¹. */
+  struct InverseBlock {
+    int place;  ///< of its row
+    Block block;
+  };
+  /** A column of L⁻¹, from its diagonal downwards, the places ascending. The inverse's blocks are
+   * the products of two such columns, (L⁻¹)ᵀ L⁻¹. */
+  std::vector<InverseBlock> inverseColumn(int row) const;
+
   const SymbolicCholesky& symbolic() const { return symbolic_; }
   /** Blocks of the factor as symbolic() places them; those on the diagonal hold the inverse of the
    * factor's lower triangle. */

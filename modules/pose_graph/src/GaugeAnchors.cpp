@@ -34,7 +34,8 @@ class Components {
 
 }  // namespace
 
-std::vector<size_t> gaugeAnchors(const PoseGraph& graph, const std::vector<double>& weights) {
+std::vector<std::optional<size_t>> gauges(const PoseGraph& graph,
+                                          const std::vector<double>& weights) {
   Components components(graph.nodes());
   const std::vector<Edge>& edges = graph.edges();
   for (size_t e = 0; e < edges.size(); ++e)
@@ -46,9 +47,17 @@ std::vector<size_t> gaugeAnchors(const PoseGraph& graph, const std::vector<doubl
     if (edges[e].type == EdgeType::kPrior && weights[e] > 0)
       held[components.root(graph.place(edges[e].from))] = true;
 
+  std::vector<std::optional<size_t>> result(graph.nodes().size());
+  for (size_t i = 0; i < result.size(); ++i)
+    if (const size_t root = components.root(i); !held[root]) result[i] = root;
+  return result;
+}
+
+std::vector<size_t> gaugeAnchors(const PoseGraph& graph, const std::vector<double>& weights) {
+  const std::vector<std::optional<size_t>> gauge = gauges(graph, weights);
   std::vector<size_t> anchors;
-  for (size_t i = 0; i < graph.nodes().size(); ++i)
-    if (components.root(i) == i && !held[i]) anchors.push_back(i);
+  for (size_t i = 0; i < gauge.size(); ++i)
+    if (gauge[i] == i) anchors.push_back(i);
   return anchors;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cstring>
 #include <set>
 
@@ -74,6 +75,29 @@ void expectSolvesAsDense() {
 TEST(BlockCholesky, SolvesAsADenseFactorisationDoes) {
   expectSolvesAsDense<3>();
   expectSolvesAsDense<6>();
+}
+
+template <int kSize>
+void expectInverseColumns() {
+  Random random(3);
+  const BlockMatrix<kSize> matrix = randomMatrix<kSize>(random, 30, 20);
+  BlockCholesky<kSize> cholesky(matrix);
+  ASSERT_TRUE(cholesky.factorize(matrix, 0));
+  const Eigen::MatrixXd inverse = dense(matrix).inverse();
+  for (const int a : {0, 7, 29})
+    for (const int b : {0, 12, 29}) {
+      typename BlockMatrix<kSize>::Block sum = decltype(sum)::Zero();
+      for (const auto& x : cholesky.inverseColumn(a))
+        for (const auto& y : cholesky.inverseColumn(b))
+          if (x.place == y.place) sum += x.block.transpose() * y.block;
+      const auto expected = inverse.block<kSize, kSize>(kSize * a, kSize * b);
+      EXPECT_LT((sum - expected).norm(), 1e-12 * inverse.norm());
+    }
+}
+
+TEST(BlockCholesky, ColumnsOfTheInverseFactorGiveBlocksOfTheInverse) {
+  expectInverseColumns<3>();
+  expectInverseColumns<6>();
 }
 
 TEST(BlockCholesky, RefusesWhatIsNotPositiveDefinite) {
