@@ -145,9 +145,25 @@ TEST_F(TwoRobots, StaySeparateWithoutLoopsBetweenRobots) {
   for (const auto& [from, to] : inlierLoops(result.loops())) EXPECT_EQ(robotOf(from), robotOf(to));
 }
 
-TEST_F(TwoRobots, StaySeparateWithoutStartPoses) {
+TEST_F(TwoRobots, JoinWithoutStartPoses) {
   const LampResult end = run(iniFor3d());
   ASSERT_EQ(end.exit_code, 0) << end.err;
+  const FinishedRun result = experiment_.result();
+  const auto summary = result.summary();
+  ASSERT_EQ(summary["components"].size(), 1u);
+  ASSERT_EQ(summary["optimization"]["frames"].size(), 1u);
+  EXPECT_EQ(summary["optimization"]["frames"][0]["joined"], true);
+  const Pose3 truth = a_.truth.front().pose.inverse() * b_.truth.front().pose;
+  const Pose3 error = truth.inverse() * result.startOf("B", "A");
+  EXPECT_LT(error.translation().norm(), 0.15);
+  EXPECT_LT(rotationAngle(error), 1.5 * kDegree);
+}
+
+TEST_F(TwoRobots, StaySeparateUntilEnoughLoopsAgree) {
+  const LampResult end = run(iniFor3d(), {"--set", "lamp::RobotFrames.min_agreeing=1000"});
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("A and B: of "));
+  EXPECT_THAT(end.out, HasSubstr("1000 are needed"));
   const FinishedRun result = experiment_.result();
   EXPECT_EQ(result.summary()["components"].size(), 2u);
   for (const auto& robot : result.summary()["robots"]) EXPECT_EQ(robot["start_pose_known"], false);

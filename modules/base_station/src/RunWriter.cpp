@@ -139,6 +139,11 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
   if (components.size() > 1)
     text << "No trusted loop closure joins these " << components.size()
          << " components: they stay separate maps.\n";
+  for (const FrameAgreement& frames : base.lastReport().frames)
+    if (!frames.joined)
+      text << result.robots.name(frames.a) << " and " << result.robots.name(frames.b) << ": of "
+           << frames.loops << " loop closures between them " << frames.agreeing
+           << " agree, each with key nodes of its own; " << frames.needed << " are needed.\n";
   if (result.interrupted) text << "The run was interrupted: this is the map up to there.\n";
   return text.str();
 }

@@ -55,7 +55,16 @@ Json componentSummary(const RunResult& result, const Component& component, size_
   return json;
 }
 
-Json optimizationSummary(const BaseStation& base) {
+Json frameSummary(const RunResult& result, const FrameAgreement& frames) {
+  return {{"robots", {result.robots.name(frames.a), result.robots.name(frames.b)}},
+          {"loops", frames.loops},
+          {"agreeing", frames.agreeing},
+          {"needed", frames.needed},
+          {"joined", frames.joined}};
+}
+
+Json optimizationSummary(const RunResult& result) {
+  const BaseStation& base = result.base_station;
   Json json;
   json["optimizations"] = base.optimizations();
   if (base.optimizations() == 0) return json;
@@ -66,6 +75,9 @@ Json optimizationSummary(const BaseStation& base) {
   json["iterations"] = report.iterations;
   json["initial_cost"] = report.initial_cost;
   json["final_cost"] = report.final_cost;
+  json["frames"] = Json::array();
+  for (const FrameAgreement& frames : report.frames)
+    json["frames"].push_back(frameSummary(result, frames));
   return json;
 }
 
@@ -107,7 +119,7 @@ Json summarize(const RunResult& result) {
                    {"attempts", loops.attempts},
                    {"verified", loops.verified},
                    {"inliers", loops.inliers}};
-  json["optimization"] = optimizationSummary(base);
+  json["optimization"] = optimizationSummary(result);
   json["robots"] = Json::array();
   for (const RobotId robot : result.robots.ids())
     json["robots"].push_back(robotSummary(result, robot));

@@ -39,7 +39,7 @@ std::string iniFile(const std::string& text) {
 
 TEST(SlamConfig, AnEmptyIniGivesTheDefaults) {
   const SlamConfig config = configFrom("");
-  EXPECT_EQ(config.stages.candidates.size(), 1u);
+  EXPECT_EQ(config.stages.candidates.size(), 2u);
   EXPECT_EQ(config.stages.candidates[0]->getLoggerName(), "AdaptiveRadius");
   EXPECT_EQ(config.stages.refiner->getLoggerName(), "Gicp");
   EXPECT_EQ(config.stages.initial_aligners.size(), 2u);

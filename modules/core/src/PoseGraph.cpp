@@ -117,7 +117,7 @@ bool PoseGraph::shareFrame(RobotId a, RobotId b) const {
     if (edge.type == EdgeType::kPrior) {
       if (in_world) group[root(edge.from.robot)] = root(*in_world);
       in_world = root(edge.from.robot);
-    } else if (edge.betweenRobots() && edge.active()) {
+    } else if (edge.betweenRobots() && edge.verdict == Verdict::kInlier) {
       group[root(edge.from.robot)] = root(edge.to.robot);
     }
   }

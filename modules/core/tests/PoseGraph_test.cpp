@@ -160,6 +160,8 @@ TEST(PoseGraph, RobotsShareAFrameThroughLoops) {
   PoseGraph graph = threeRobots();
   addLoop(graph, {kA, 0}, {kC, 0}, Verdict::kOutlier);
   EXPECT_FALSE(graph.shareFrame(kA, kC));
+  addLoop(graph, {kA, 0}, {kC, 0}, Verdict::kPending);
+  EXPECT_FALSE(graph.shareFrame(kA, kC)) << "the poses do not know of it yet";
   addLoop(graph, {kA, 0}, {kC, 0});
   addLoop(graph, {kC, 0}, {kB, 0});
   EXPECT_TRUE(graph.shareFrame(kB, kA));

@@ -1,5 +1,7 @@
 #include "lamp/loop_candidates/RadiusGenerators.h"
 
+#include "lamp/loop_candidates/GlobalSearch.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -89,6 +91,7 @@ void registerAllClasses_lamp_loop_candidates() {
   mrpt::rtti::registerClass(CLASS_ID(RadiusGenerator));
   mrpt::rtti::registerClass(CLASS_ID(FixedRadius));
   mrpt::rtti::registerClass(CLASS_ID(AdaptiveRadius));
+  mrpt::rtti::registerClass(CLASS_ID(GlobalSearch));
 }
 
 }  // namespace lamp

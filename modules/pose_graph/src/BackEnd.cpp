@@ -7,7 +7,12 @@ namespace lamp {
 OptimizationResult BackEnd::optimize(const PoseGraph& graph) const {
   std::vector<bool> admitted(graph.edges().size(), true);
   for (const auto& rejection : rejections) rejection->reject(graph, admitted);
-  return optimizer->optimize(graph, admitted);
+  OptimizationResult result = optimizer->optimize(graph, admitted);
+  for (const auto& rejection : rejections) {
+    const std::vector<FrameAgreement> agreements = rejection->agreements();
+    result.report.frames.insert(result.report.frames.end(), agreements.begin(), agreements.end());
+  }
+  return result;
 }
 
 }  // namespace lamp

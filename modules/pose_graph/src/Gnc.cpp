@@ -67,7 +67,8 @@ class GncRun {
          const GncMemory* memory)
       : graph_(graph),
         options_(options),
-        guess_(memory ? continuedPoses(graph, *memory, initialGuess(graph)) : initialGuess(graph)),
+        guess_(memory ? continuedPoses(graph, *memory, initialGuess(graph, admitted))
+                      : initialGuess(graph, admitted)),
         problem_(makePoseProblem(options.solver, graph, guess_)),
         graduation_(makeGraduation(options.loss)),
         loops_(gncLoops(graph, admitted, options.inlier_probability)),

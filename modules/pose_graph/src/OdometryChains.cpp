@@ -22,6 +22,7 @@ OdometryChains::OdometryChains(const PoseGraph& graph)
   for (const Edge& edge : graph.edges()) {
     if (edge.type != EdgeType::kPrior) continue;
     const Link& link = links_[graph.place(edge.from)];
+    if (priors_[link.chain]) continue;
     const Matrix6d covariance = boundedCovariance(edge.information, graph.planar());
     priors_[link.chain] = {edge.from_T_to * link.first_T_node.inverse(),
                            carried(link.first_T_node, covariance)};
@@ -50,6 +51,7 @@ void OdometryChains::follow(RobotId robot) {
     } else {
       link.chain = static_cast<int>(priors_.size());
       priors_.emplace_back();
+      first_.push_back(id);
     }
     last = &link;
     const auto next = to_next.find(id);
@@ -64,6 +66,11 @@ std::optional<RelativePose> OdometryChains::between(KeyframeId a, KeyframeId b,
   if (from.chain == to.chain) return withinChain(from, to, scale);
   if (!priors_[from.chain] || !priors_[to.chain]) return std::nullopt;
   return throughWorld(from, to, scale);
+}
+
+RelativePose OdometryChains::fromFirst(KeyframeId id) const {
+  const Link& link = links_[graph_.place(id)];
+  return {link.first_T_node, carried(link.first_T_node.inverse(), link.covariance)};
 }
 
 RelativePose OdometryChains::withinChain(const Link& a, const Link& b, double scale) const {

@@ -26,6 +26,15 @@ class OdometryChains {
   /** None if neither odometry nor priors relate the two.
    * \param scale factor of all covariances of odometry. */
   std::optional<RelativePose> between(KeyframeId a, KeyframeId b, double scale = 1.0) const;
+  /** From the first key node of its chain to a key node. */
+  RelativePose fromFirst(KeyframeId id) const;
+  int size() const { return static_cast<int>(priors_.size()); }
+  KeyframeId first(int chain) const { return first_[chain]; }
+  bool hasPrior(int chain) const { return priors_[chain].has_value(); }
+  /** From the world to the chain's first key node; the chain must have one. */
+  RelativePose prior(int chain) const {
+    return {priors_[chain]->world_T_first, priors_[chain]->covariance};
+  }
   /** Number of the chain that a key node is in. */
   int chain(KeyframeId id) const { return links_[graph_.place(id)].chain; }
 
@@ -47,6 +56,7 @@ class OdometryChains {
   const PoseGraph& graph_;
   std::vector<Link> links_;                   ///< by place in PoseGraph::nodes()
   std::vector<std::optional<Prior>> priors_;  ///< by chain
+  std::vector<KeyframeId> first_;             ///< by chain
 };
 
 }  // namespace lamp

@@ -18,8 +18,9 @@ void SolverOptions::visit(OptionVisitor& v) {
 
 namespace {
 
-std::vector<Pose3> startOf(const std::string& start, const PoseGraph& graph) {
-  if (start == "odometry") return initialGuess(graph);
+std::vector<Pose3> startOf(const std::string& start, const PoseGraph& graph,
+                           const std::vector<bool>& admitted) {
+  if (start == "odometry") return initialGuess(graph, admitted);
   if (start == "spanning_tree") return spanningTreeGuess(graph);
   if (start == "chordal") return chordalGuess(graph);
   std::vector<Pose3> estimates;
@@ -48,7 +49,7 @@ OptimizationResult PlainOptimizer::optimize(const PoseGraph& unjudged,
                                             const std::vector<bool>& admitted) {
   const PoseGraph graph = judged(unjudged, admitted);
   const std::unique_ptr<PoseProblem> problem =
-      makePoseProblem(solver(), graph, startOf(options_.start, graph));
+      makePoseProblem(solver(), graph, startOf(options_.start, graph, admitted));
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
     if (!graph.edges()[e].active()) problem->setWeight(e, 0.0);
   const SolveSummary summary = problem->solve(options_.solve);

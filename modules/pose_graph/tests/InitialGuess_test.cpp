@@ -63,7 +63,7 @@ TEST(InitialGuess, BrokenChainGoesOnFromTheEstimateAfterTheGap) {
   EXPECT_TRUE(initialGuess(graph)[3].isApprox(node.world_T_base, 1e-12));
 }
 
-TEST(InitialGuess, LoopClosuresAreNotUsed) {
+TEST(InitialGuess, LoopClosuresWithinAChainAreNotUsed) {
   PoseGraph graph = chain(0, 4);
   const std::vector<Pose3> before = initialGuess(graph);
   graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, 0), keyframe(0, 3),

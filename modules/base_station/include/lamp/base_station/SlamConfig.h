@@ -23,13 +23,13 @@ namespace lamp {
 /** Section `[pipeline]`: which stages take part, by name. */
 struct PipelineOptions {
   std::string odometry = "RecordedOdometry";
-  std::vector<std::string> candidates = {"AdaptiveRadius"};
+  std::vector<std::string> candidates = {"AdaptiveRadius", "GlobalSearch"};
   std::string priority = "Arrival";
   std::vector<std::string> initial_aligner{"Odometry", "Teaser"};
   std::string refiner = "Gicp";
   std::vector<std::string> verifiers = {"GuessDeviation", "OverlapResidual", "FreeSpaceConsistency",
                                         "BothDirections"};
-  std::vector<std::string> outlier_rejection = {"OdometryGate"};
+  std::vector<std::string> outlier_rejection = {"OdometryGate", "RobotFrames"};
   std::string optimizer = "Gnc";
   std::vector<std::string> exporters = {"Ply", "Pcd", "OctoMap", "Picture"};
   bool inter_robot_loops = true;

@@ -78,7 +78,7 @@ class PoseGraph {
   std::vector<RobotId> robots() const;
 
   /** Where poses of both robots can be compared: one robot, two robots with a start pose, or robots
-   * of one component. */
+   * that loop closures have joined in an optimisation. */
   bool shareFrame(RobotId a, RobotId b) const;
 
   /** True if every node is planar (and there is one). */

@@ -19,7 +19,7 @@ class CandidateGenerator : public Stage {
                                                     KeyframeId current) const = 0;
 };
 
-/** Registers FixedRadius and AdaptiveRadius. */
+/** Registers the generators of this module. */
 void registerAllClasses_lamp_loop_candidates();
 
 }  // namespace lamp

@@ -8,11 +8,16 @@ namespace lamp {
 
 /** Poses `world_T_base` that trust odometry only, in the order of PoseGraph::nodes().
  *
- * Each chain of odometry edges is laid out rigidly from its first key node with a prior, or, where
- * it has none, from the current estimate of its first key node. Loop closures are not used. */
+ * Each chain of odometry edges is laid out rigidly from its prior. Chains that have none, or one
+ * that is less sure than the loop closures that agree, are placed by the robust average of their
+ * admitted loops to chains that are placed (the most agreeing first); where there are none either,
+ * by the current estimate of their first key node.
+ * \param admitted one flag for each edge. */
+std::vector<Pose3> initialGuess(const PoseGraph& graph, const std::vector<bool>& admitted);
+/** All loops are admitted. */
 std::vector<Pose3> initialGuess(const PoseGraph& graph);
 
-/** The same along a spanning tree of few edges over odometry and all loop closures that are not
+/** Along a spanning tree of few edges over odometry and all loop closures that are not
  * rejected: one frame for each component. */
 std::vector<Pose3> spanningTreeGuess(const PoseGraph& graph);
 

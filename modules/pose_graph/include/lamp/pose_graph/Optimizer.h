@@ -5,6 +5,7 @@
 
 #include "lamp/core/PoseGraph.h"
 #include "lamp/core/Stage.h"
+#include "lamp/pose_graph/OutlierRejection.h"
 
 namespace lamp {
 
@@ -23,6 +24,7 @@ struct OptimizationReport {
   int rounds = 1;           ///< outer (GNC) rounds
   double initial_cost = 0;  ///< half the weighted sum of squared residuals
   double final_cost = 0;
+  std::vector<FrameAgreement> frames;  ///< of robots without a common start
 };
 
 struct OptimizationResult {

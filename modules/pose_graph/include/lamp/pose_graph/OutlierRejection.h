@@ -7,6 +7,15 @@
 
 namespace lamp {
 
+/** How far two robots that no start poses relate are from a common map. */
+struct FrameAgreement {
+  RobotId a, b;
+  size_t loops = 0;     ///< between the two
+  size_t agreeing = 0;  ///< of those, how many agree, each with key nodes of its own
+  size_t needed = 0;
+  bool joined = false;
+};
+
 /** Decides before the optimisation which loop closures may take part in it (paper II-D). */
 class OutlierRejection : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(OutlierRejection)
@@ -15,6 +24,8 @@ class OutlierRejection : public Stage {
   /** \param admitted one flag for each edge; those of loops that must stay out are cleared. Loops
    *  that are out already are not looked at. */
   virtual void reject(const PoseGraph& graph, std::vector<bool>& admitted) = 0;
+  /** Of the last reject(). */
+  virtual std::vector<FrameAgreement> agreements() const { return {}; }
 };
 
 }  // namespace lamp

@@ -1,0 +1,33 @@
+#include "lamp/loop_candidates/GlobalSearch.h"
+
+#include <algorithm>
+#include <utility>
+
+IMPLEMENTS_MRPT_OBJECT(GlobalSearch, lamp::CandidateGenerator, lamp)
+
+namespace lamp {
+
+void GlobalSearchOptions::visit(OptionVisitor& v) {
+  v("max_per_robot", max_per_robot, "",
+    "candidates for a key node and each robot that shares no frame with it", {1});
+}
+
+std::vector<LoopClosureCandidate> GlobalSearch::propose(const PoseGraph& graph,
+                                                        KeyframeId current) const {
+  std::vector<LoopClosureCandidate> candidates;
+  for (const RobotId robot : graph.robots()) {
+    if (graph.shareFrame(robot, current.robot)) continue;
+    const std::vector<KeyframeId>& others = graph.robotNodes(robot);
+    const size_t count = std::min(others.size(), static_cast<size_t>(options.max_per_robot));
+    for (size_t k = 0; k < count; ++k) {
+      const size_t place = (current.index + k * others.size() / count) % others.size();
+      LoopClosureCandidate candidate{others[place], current, getLoggerName(), 0};
+      if (graph.place(candidate.from) > graph.place(candidate.to))
+        std::swap(candidate.from, candidate.to);
+      candidates.push_back(candidate);
+    }
+  }
+  return candidates;
+}
+
+}  // namespace lamp

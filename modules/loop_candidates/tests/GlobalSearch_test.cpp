@@ -1,0 +1,63 @@
+#include "lamp/loop_candidates/GlobalSearch.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace lamp {
+namespace {
+
+constexpr RobotId kA{0}, kB{1};
+
+void addNodes(PoseGraph& graph, RobotId robot, uint32_t count, bool with_prior) {
+  for (uint32_t i = 0; i < count; ++i) {
+    Node node;
+    node.id = {robot, i};
+    graph.addNode(node);
+  }
+  if (!with_prior) return;
+  Edge prior;
+  prior.type = EdgeType::kPrior;
+  prior.from = prior.to = {robot, 0};
+  graph.addEdge(prior);
+}
+
+TEST(GlobalSearch, TriesTheOtherRobotsWholeWay) {
+  PoseGraph graph;
+  addNodes(graph, kA, 12, true);
+  addNodes(graph, kB, 20, false);
+  GlobalSearch search;
+  search.options.max_per_robot = 3;
+  std::set<uint32_t> tried;
+  for (uint32_t i = 0; i < 20; ++i) {
+    const auto candidates = search.propose(graph, {kB, i});
+    std::set<KeyframeId> distinct;
+    for (const auto& candidate : candidates) {
+      EXPECT_EQ(candidate.to, (KeyframeId{kB, i}));
+      EXPECT_EQ(candidate.from.robot, kA);
+      distinct.insert(candidate.from);
+      tried.insert(candidate.from.index);
+    }
+    EXPECT_EQ(distinct.size(), 3u);
+  }
+  EXPECT_EQ(tried.size(), 12u);
+}
+
+TEST(GlobalSearch, TheOlderKeyNodeComesFirst) {
+  PoseGraph graph;
+  addNodes(graph, kA, 2, false);
+  addNodes(graph, kB, 2, false);
+  for (const auto& candidate : GlobalSearch().propose(graph, {kA, 1}))
+    EXPECT_EQ(candidate.from.robot, kA);
+}
+
+TEST(GlobalSearch, HasNothingToDoWhereAFrameIsShared) {
+  PoseGraph graph;
+  addNodes(graph, kA, 12, true);
+  EXPECT_TRUE(GlobalSearch().propose(graph, {kA, 3}).empty()) << "a robot alone";
+  addNodes(graph, kB, 20, true);
+  EXPECT_TRUE(GlobalSearch().propose(graph, {kB, 3}).empty()) << "start poses of both";
+}
+
+}  // namespace
+}  // namespace lamp

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "lamp/pose_graph/OutlierRejection.h"
+
+namespace lamp {
+
+struct RobotFramesOptions {
+  int min_agreeing = 5;
+
+  void visit(OptionVisitor& v);
+};
+
+/** Keeps robots apart that nothing but a few loop closures relates: without start poses there is no
+ * odometry between them that could contradict a false one. The loops between two robots (chains of
+ * odometry) are averaged robustly (frameAverages()); the robots are joined when enough of them
+ * agree, each with key nodes of its own. Until then all loops between them stay out. */
+class RobotFrames : public OutlierRejection {
+  DEFINE_MRPT_OBJECT(RobotFrames, lamp)
+
+ public:
+  explicit RobotFrames(const RobotFramesOptions& options = {}) : options_(options) {}
+
+  void visit(OptionVisitor& options) override { options_.visit(options); }
+  void reject(const PoseGraph& graph, std::vector<bool>& admitted) override;
+  std::vector<FrameAgreement> agreements() const override { return agreements_; }
+
+ private:
+  RobotFramesOptions options_;
+  std::vector<FrameAgreement> agreements_;
+};
+
+}  // namespace lamp
