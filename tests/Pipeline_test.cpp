@@ -173,6 +173,31 @@ TEST_F(TwoRobots, StaySeparateUntilEnoughLoopsAgree) {
   }
 }
 
+TEST_F(TwoRobots, OperatorsActionsAreReplayed) {
+  const std::string actions = experiment_.file("actions.csv",
+                                               "key_nodes,action,loop_id,robot\n"
+                                               "10,ignore,,B\n"
+                                               "100000,veto,0,\n"
+                                               "100000,veto,100000,\n");
+  const LampResult end = run(iniFor3d("", startSections()), {"--actions", actions});
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  EXPECT_THAT(end.err, HasSubstr("actions.csv:4: not done"));
+  const FinishedRun first = experiment_.result();
+  EXPECT_EQ(first.summary()["components"].size(), 2u) << "B is ignored";
+  const CsvTable loops = first.loops();
+  EXPECT_EQ(loops.rows.at(0)[loops.column("verdict")], "outlier");
+
+  const LampResult again =
+      experiment_.run({experiment_.path("experiment.ini"), rawlogs_[0], rawlogs_[1], "--actions",
+                       experiment_.path("run/actions.csv"), "--threads", "1"},
+                      "again");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const char* name : {"actions.csv", "loops.csv", "verdicts.csv", "graph.g2o"})
+    EXPECT_EQ(readFile(experiment_.path("again/" + std::string(name))),
+              readFile(experiment_.path("run/" + std::string(name))))
+        << name;
+}
+
 TEST(RobotsThatNeverMeet, GiveTwoMaps) {
   const Eigen::Vector2d far_away(150, 80);
   const Recording a = robot("A", ringRoute(), 1).record3d(BoxWorld::building(kWorldSeed));

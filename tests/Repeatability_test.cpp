@@ -105,10 +105,10 @@ TEST(Interrupt, LeavesACompleteRunFolder) {
   for (const char* file :
        {"config.ini", "trajectories/A.tum", "trajectories/A.keyframes.tum",
         "trajectories/A.odometry.tum", "graph.g2o", "graph.graph", "graph_ids.csv", "loops.csv",
-        "verdicts.csv", "keyframes/A.rawlog", "maps/map.ply", "maps/map.pcd", "maps/map.bt",
-        "maps/map.ot", "maps/map.png", "summary.json", "timings.json"})
+        "verdicts.csv", "actions.csv", "keyframes/A.rawlog", "maps/map.ply", "maps/map.pcd",
+        "maps/map.bt", "maps/map.ot", "maps/map.png", "summary.json", "timings.json"})
     EXPECT_TRUE(run.has(file)) << file;
-  EXPECT_EQ(run.files().size(), 16u) << "and nothing temporary beside them";
+  EXPECT_EQ(run.files().size(), 17u) << "and nothing temporary beside them";
 }
 
 TEST(Interrupt, LeavesOutWhatHasNotArrivedYet) {

@@ -56,11 +56,21 @@ void BaseStation::receive(const RobotEnd& end) {
   trailing_scans_[end.robot] = end.passed_scans;
 }
 
+std::string BaseStation::apply(const OperatorAction& action, const RobotTable& robots) {
+  const std::string outcome = operator_.apply(action, round_, robots, graph_, ledger_);
+  actions_.push_back({action, outcome});
+  if (outcome != "done") return outcome;
+  if (action.kind == ActionKind::kRevive || action.kind == ActionKind::kReset)
+    for (const Node& node : graph_.nodes()) propose(node.id);
+  optimize();
+  return outcome;
+}
+
 void BaseStation::finish(const std::atomic<bool>& interrupted) {
   // Each optimisation can bring key nodes together that were too far apart before.
   do {
     if (!interrupted) computeRound(0);
-    if (!optimized_all_) optimize();
+    if (!optimized_all_ && !operator_.frozen()) optimize();
   } while (queue_.size() > 0 && !interrupted);
 }
 
@@ -110,10 +120,12 @@ void BaseStation::propose(KeyframeId id) {
 
 bool BaseStation::isWorthTrying(const LoopClosureCandidate& candidate) const {
   if (!inter_robot_loops_ && candidate.from.robot != candidate.to.robot) return false;
+  if (!operator_.maySearch(candidate.from, candidate.to)) return false;
   const auto attempts = ledger_.attempts(candidate.from, candidate.to);
   if (attempts.empty()) return true;
   const LedgerRow& last = *attempts.back();
-  if (last.outcome.accepted || last.attempt >= options_.max_attempts) return false;
+  if ((last.edge && !operator_.removed(*last.edge)) || last.attempt >= options_.max_attempts)
+    return false;
   const Pose3 moved = last.guess.target_T_source.inverse() * guess(candidate).target_T_source;
   return moved.translation().norm() >= options_.retry_distance_m;
 }
@@ -204,17 +216,19 @@ void BaseStation::record(const LoopClosureCandidate& candidate, const Guess& gue
 }
 
 bool BaseStation::optimizationDue() const {
+  if (operator_.frozen()) return false;
   const auto waiting = static_cast<double>(loops_ - optimized_loops_);
   return waiting >= std::max(static_cast<double>(options_.optimize_min_loops),
                              options_.optimize_growth * static_cast<double>(loops_));
 }
 
 void BaseStation::optimize() {
+  if (operator_.frozen()) return;
   const CTimeLoggerEntry timing(timer_, "pose_graph");
   std::vector<Verdict> before;
   for (const Edge& edge : graph_.edges()) before.push_back(edge.verdict);
 
-  const OptimizationResult result = stages_.back_end.optimize(graph_);
+  const OptimizationResult result = stages_.back_end.optimize(graph_, operator_.admitted(graph_));
   report_ = result.report;
   ++optimization_count_;
   optimized_loops_ = loops_;

@@ -47,6 +47,13 @@ std::vector<const LedgerRow*> Ledger::attempts(KeyframeId from, KeyframeId to) c
   return result;
 }
 
+const LedgerRow* Ledger::accepted(size_t loop_id) const {
+  const LedgerRow* result = nullptr;
+  for (const LedgerRow& row : rows_)
+    if (row.loop_id == loop_id && row.edge) result = &row;
+  return result;
+}
+
 CsvTable Ledger::loops(const PoseGraph& graph, const RobotTable& robots) const {
   CsvTable table;
   table.columns = {

@@ -99,6 +99,7 @@ void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CT
     writeTextFile(folder.graphIds(), toGraphIdsCsv(base.graph(), result.robots));
     writeTextFile(folder.loops(), base.ledger().loops(base.graph(), result.robots).text());
     writeTextFile(folder.verdicts(), base.ledger().verdicts().text());
+    writeTextFile(folder.actions(), toCsv(base.actions()).text());
     writeKeyframes(folder, result);
   }
   writeMaps(folder, result, timer, progress);

@@ -47,6 +47,7 @@ struct Arguments {
   std::vector<std::string> rawlogs;
   std::string out;
   std::vector<std::string> overrides;
+  std::string actions;
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   int seed = -1;
   std::string log = "WARN";
@@ -74,6 +75,9 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->type_name("SECTION.KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--actions", arguments.actions,
+                 "Operator's actions to replay, as a run's own actions.csv")
+      ->type_name("FILE.csv");
   app.add_option("--threads", arguments.threads,
                  "Threads for registration; results do not depend on it")
       ->capture_default_str()
@@ -122,8 +126,10 @@ void run(const Arguments& arguments) {
     return;
   }
   if (arguments.out.empty()) throw UsageError("say where the results go: --out DIR");
+  SlamRun::Job job{arguments.out, arguments.threads, {}};
+  if (!arguments.actions.empty()) job.actions = readActions(arguments.actions);
   ::signal(SIGINT, onInterrupt);
-  SlamRun slam(std::move(config), {arguments.out, arguments.threads}, interrupted);
+  SlamRun slam(std::move(config), std::move(job), interrupted);
   slam.setMinLoggingLevel(kLevels.at(arguments.log));
   std::cout << runLogged(slam);
 }

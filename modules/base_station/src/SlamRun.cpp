@@ -103,6 +103,16 @@ void SlamRun::warn(const std::vector<std::string>& warnings, const std::string& 
   for (const std::string& warning : warnings) MRPT_LOG_WARN_STREAM(prefix << warning);
 }
 
+void SlamRun::act(BaseStation& base, const RobotTable& robots, bool all) {
+  const auto& actions = job_.actions;
+  for (; next_action_ < actions.size(); ++next_action_) {
+    const OperatorAction& action = actions[next_action_];
+    if (!all && action.key_nodes > base.packets().size()) return;
+    const std::string outcome = base.apply(action, robots);
+    if (outcome != "done") MRPT_LOG_WARN_STREAM(action.where << ": not done: " << outcome);
+  }
+}
+
 std::string SlamRun::run() {
   RobotTable robots;
   RawlogSource source(config_.input.rawlogs, config_.robots, robots);
@@ -126,9 +136,12 @@ std::string SlamRun::run() {
     arena.execute([&] {
       while (const auto message = interrupted_ ? std::nullopt : delivery.receive()) {
         std::visit([&](const auto& content) { base_station.receive(content); }, *message);
+        act(base_station, robots, false);
         progress.show(front_end.progress() * delivery.share(), describeLoops(base_station));
       }
       queue.closeReceiver();  // after Ctrl-C the front end may be waiting for room in the queue
+      base_station.finish(interrupted_);
+      act(base_station, robots, !interrupted_);
       base_station.finish(interrupted_);
     });
     front_end.join();

@@ -370,5 +370,103 @@ TEST_F(ScriptedLoops, ARejectedLoopIsVerifiedButNoInlier) {
   EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[11].pose.translation().x(), 22, 0.01);
 }
 
+/** What an operator does to the loop 0 - 11 after the run. */
+class OperatorAfterScriptedLoops : public ScriptedLoops {
+ protected:
+  OperatorAfterScriptedLoops() { robots_.add("A"); }
+
+  std::string apply(ActionKind kind, std::optional<size_t> loop_id = std::nullopt) {
+    OperatorAction action;
+    action.kind = kind;
+    action.loop_id = loop_id;
+    action.robot = "A";
+    return station_->base.apply(action, robots_);
+  }
+  size_t theLoop() const { return attempts(11).at(0)->loop_id; }
+  double lastX() const { return station_->base.keyframeTrajectory(kA)[11].pose.translation().x(); }
+
+  RobotTable robots_;
+};
+
+TEST_F(OperatorAfterScriptedLoops, AVetoedLoopIsOutUntilItIsRestored) {
+  run(kRetryFrom2m);
+  EXPECT_EQ(apply(ActionKind::kVeto, theLoop()), "done");
+  EXPECT_NEAR(lastX(), 22, 0.01);
+  EXPECT_EQ(countLoops(station_->base).inliers, 0u);
+  EXPECT_EQ(apply(ActionKind::kRestore, theLoop()), "done");
+  EXPECT_NEAR(lastX(), 16, 0.01);
+}
+
+TEST_F(OperatorAfterScriptedLoops, APinnedLoopIsNotRejected) {
+  run(kRetryFrom2m, "Gnc", 0.1);
+  EXPECT_NEAR(lastX(), 22, 0.01) << "the back end rejects it";
+  EXPECT_EQ(apply(ActionKind::kPin, theLoop()), "done");
+  EXPECT_LT(lastX(), 21);
+  EXPECT_EQ(countLoops(station_->base).inliers, 1u);
+  EXPECT_EQ(apply(ActionKind::kReset), "done");
+  EXPECT_NEAR(lastX(), 22, 0.01);
+}
+
+TEST_F(OperatorAfterScriptedLoops, OnlyARemovedPairIsTriedAgainWhenItsGuessMoves) {
+  for (const ActionKind kind : {ActionKind::kVeto, ActionKind::kRemove}) {
+    run(kRetryFrom2m);
+    apply(kind, theLoop());
+    OperatorAction move;
+    move.kind = ActionKind::kAdd;
+    move.from = "A:1";
+    move.to = "A:11";
+    move.position << 10, 0, 0;
+    move.sigma_m = 1e-4;
+    move.sigma_deg = 0.01;
+    EXPECT_EQ(station_->base.apply(move, robots_), "done");
+    const std::atomic<bool> interrupted{false};
+    station_->base.finish(interrupted);
+    EXPECT_EQ(attempts(11).size(), kind == ActionKind::kVeto ? 1u : 2u);
+  }
+}
+
+TEST_F(OperatorAfterScriptedLoops, ALoopByHandIsPinned) {
+  run(kRetryFrom2m);
+  OperatorAction action;
+  action.kind = ActionKind::kAdd;
+  action.from = "A:0";
+  action.to = "A:5";
+  action.position << 3, 0, 0;
+  action.sigma_m = 1e-4;
+  action.sigma_deg = 0.01;
+  EXPECT_EQ(station_->base.apply(action, robots_), "done");
+  EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[5].pose.translation().x(), 3, 0.01);
+  const LedgerRow& row = *attempts(5).back();
+  EXPECT_EQ(row.candidate.generator, "operator");
+  EXPECT_EQ(apply(ActionKind::kRemove, row.loop_id), "done");
+  EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[5].pose.translation().x(), 5 * 16.0 / 11, 0.05);
+}
+
+TEST_F(OperatorAfterScriptedLoops, WhileFrozenNothingMoves) {
+  run(kRetryFrom2m);
+  apply(ActionKind::kFreeze);
+  const size_t optimizations = station_->base.optimizations();
+  apply(ActionKind::kVeto, theLoop());
+  EXPECT_NEAR(lastX(), 16, 0.01);
+  EXPECT_EQ(station_->base.optimizations(), optimizations);
+  apply(ActionKind::kUnfreeze);
+  EXPECT_NEAR(lastX(), 22, 0.01);
+}
+
+TEST_F(OperatorAfterScriptedLoops, WhatCannotBeDoneIsToldAndRecorded) {
+  run(kRetryFrom2m);
+  EXPECT_EQ(apply(ActionKind::kVeto, 999), "no such loop closure has been verified yet");
+  OperatorAction action;
+  action.kind = ActionKind::kPin;
+  action.from = "A:0";
+  action.to = "A:77";
+  EXPECT_EQ(station_->base.apply(action, robots_), "there is no key node A:77 yet");
+  action.kind = ActionKind::kIgnore;
+  action.robot = "Z";
+  EXPECT_EQ(station_->base.apply(action, robots_), "there is no key node of a robot 'Z' yet");
+  ASSERT_EQ(station_->base.actions().size(), 3u);
+  EXPECT_EQ(station_->base.actions()[2].outcome, "there is no key node of a robot 'Z' yet");
+}
+
 }  // namespace
 }  // namespace lamp

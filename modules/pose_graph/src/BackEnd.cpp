@@ -4,8 +4,7 @@ IMPLEMENTS_VIRTUAL_MRPT_OBJECT(OutlierRejection, Stage, lamp)
 
 namespace lamp {
 
-OptimizationResult BackEnd::optimize(const PoseGraph& graph) const {
-  std::vector<bool> admitted(graph.edges().size(), true);
+OptimizationResult BackEnd::optimize(const PoseGraph& graph, std::vector<bool> admitted) const {
   for (const auto& rejection : rejections) rejection->reject(graph, admitted);
   OptimizationResult result = optimizer->optimize(graph, admitted);
   for (const auto& rejection : rejections) {

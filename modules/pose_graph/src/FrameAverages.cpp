@@ -135,7 +135,7 @@ std::vector<FrameAverage> frameAverages(const PoseGraph& graph, const OdometryCh
   const bool planar = graph.planar();
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
     const Edge& edge = graph.edges()[e];
-    if (!edge.mayBeRejected() || !admitted[e]) continue;
+    if (edge.type != EdgeType::kLoopClosure || !admitted[e]) continue;
     const int from = chains.chain(edge.from), to = chains.chain(edge.to);
     if (from != to) by_pair[std::minmax(from, to)].push_back(measurement(chains, edge, planar));
   }

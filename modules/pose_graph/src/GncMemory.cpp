@@ -7,7 +7,7 @@ namespace lamp {
 namespace {
 
 bool sameMeasurement(const Edge& a, const Edge& b) {
-  return a.type == b.type && a.from == b.from && a.to == b.to &&
+  return a.type == b.type && a.pinned == b.pinned && a.from == b.from && a.to == b.to &&
          a.from_T_to.matrix() == b.from_T_to.matrix() && a.information == b.information;
 }
 

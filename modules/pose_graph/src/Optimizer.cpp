@@ -1,5 +1,7 @@
 #include "lamp/pose_graph/Optimizer.h"
 
+#include "lamp/pose_graph/EdgeResiduals.h"
+
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(Optimizer, Stage, lamp)
 
 namespace lamp {
@@ -14,6 +16,9 @@ void applyResult(const OptimizationResult& result, PoseGraph& graph) {
     edge.weight = loop.weight;
     edge.chi2 = loop.chi2;
   }
+  const std::vector<double> residuals2 = edgeResiduals2(graph, result.world_T_base);
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
+    if (graph.edges()[e].pinned) graph.edges()[e].chi2 = residuals2[e];
 }
 
 }  // namespace lamp

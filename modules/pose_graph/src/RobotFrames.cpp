@@ -41,6 +41,10 @@ void RobotFrames::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
     if (in_world >= 0) frames.join(in_world, chain);
     in_world = chain;
   }
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
+    const Edge& edge = graph.edges()[e];
+    if (edge.pinned && admitted[e]) frames.join(chains.chain(edge.from), chains.chain(edge.to));
+  }
   agreements_.clear();
   std::vector<FrameAverage> unknown;
   for (const FrameAverage& average : frameAverages(graph, chains, admitted))

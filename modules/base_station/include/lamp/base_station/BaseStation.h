@@ -10,6 +10,7 @@
 
 #include "lamp/base_station/BaseStationOptions.h"
 #include "lamp/base_station/Ledger.h"
+#include "lamp/base_station/OperatorState.h"
 #include "lamp/base_station/SlamConfig.h"
 #include "lamp/core/KeyframePacket.h"
 #include "lamp/core/PoseGraph.h"
@@ -32,11 +33,14 @@ class BaseStation : public mrpt::system::COutputLogger {
 
   void receive(const KeyframePacket& packet);
   void receive(const RobotEnd& end);
+  /** Does what an operator asked for, and optimises. \return `done`, or why it cannot be done. */
+  std::string apply(const OperatorAction& action, const RobotTable& robots);
   /** Computes what still waits, until `interrupted`, and optimises a last time. */
   void finish(const std::atomic<bool>& interrupted);
 
   const PoseGraph& graph() const { return graph_; }
   const Ledger& ledger() const { return ledger_; }
+  const std::vector<ActionRecord>& actions() const { return actions_; }
   size_t candidates() const { return candidate_count_; }
   size_t optimizations() const { return optimization_count_; }
   const OptimizationReport& lastReport() const { return report_; }
@@ -75,6 +79,8 @@ class BaseStation : public mrpt::system::COutputLogger {
   PreparedScanStore scans_;
   CandidateQueue queue_;
   Ledger ledger_;
+  OperatorState operator_;
+  std::vector<ActionRecord> actions_;
   std::map<KeyframeId, KeyframePacket> packets_;
   std::map<RobotId, std::vector<StampedPose>> trailing_scans_;
   /** Where each key node stood when candidates were last sought for it. */

@@ -44,6 +44,9 @@ class Ledger {
   /** Attempts at a pair so far, latest last. */
   std::vector<const LedgerRow*> attempts(KeyframeId from, KeyframeId to) const;
 
+  /** The latest accepted attempt at a pair; null if there is none. */
+  const LedgerRow* accepted(size_t loop_id) const;
+
   CsvTable loops(const PoseGraph& graph, const RobotTable& robots) const;
   CsvTable verdicts() const;
 

@@ -7,18 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "lamp/base_station/OperatorActions.h"
 #include "lamp/base_station/SlamConfig.h"
 #include "lamp/core/RunFolder.h"
 
 namespace lamp {
+
+class BaseStation;
 
 /** One experiment from rawlogs to a run folder; what `lamp-slam` does once it knows its arguments.
  */
 class SlamRun : public mrpt::system::COutputLogger {
  public:
   struct Job {
-    std::string out;  ///< folder of the run; must be new or empty
-    int threads = 1;  ///< for registration
+    std::string out;                      ///< folder of the run; must be new or empty
+    int threads = 1;                      ///< for registration
+    std::vector<OperatorAction> actions;  ///< by key_nodes
   };
 
   /** \param interrupted may be set from a signal handler: the run then ends early with what it has.
@@ -30,10 +34,13 @@ class SlamRun : public mrpt::system::COutputLogger {
   std::string run();
 
  private:
+  /** Does those that are due, or all. */
+  void act(BaseStation& base, const RobotTable& robots, bool all);
   void warn(const std::vector<std::string>& warnings, const std::string& prefix = "");
 
   SlamConfig config_;
   const Job job_;
+  size_t next_action_ = 0;
   const std::atomic<bool>& interrupted_;
 };
 

@@ -41,8 +41,9 @@ struct Edge {
   Verdict verdict = Verdict::kInlier;
   double weight = 1.0;  ///< last weight given by the robust back end
   double chi2 = 0.0;    ///< squared Mahalanobis residual at the estimate
+  bool pinned = false;  ///< an operator vouches for this loop closure
 
-  bool mayBeRejected() const { return type == EdgeType::kLoopClosure; }
+  bool mayBeRejected() const { return type == EdgeType::kLoopClosure && !pinned; }
   bool betweenRobots() const { return from.robot != to.robot; }
   bool active() const { return verdict != Verdict::kOutlier; }
 };

@@ -14,8 +14,13 @@ struct BackEnd {
   std::vector<std::shared_ptr<OutlierRejection>> rejections;
   std::shared_ptr<Optimizer> optimizer;
 
-  /** Every loop gets a new chance, whatever its verdict was before. */
-  OptimizationResult optimize(const PoseGraph& graph) const;
+  /** Every admitted loop gets a new chance, whatever its verdict was before.
+   * \param admitted one flag for each edge. */
+  OptimizationResult optimize(const PoseGraph& graph, std::vector<bool> admitted) const;
+  /** All loops may take part. */
+  OptimizationResult optimize(const PoseGraph& graph) const {
+    return optimize(graph, std::vector<bool>(graph.edges().size(), true));
+  }
 };
 
 }  // namespace lamp
