@@ -8,11 +8,15 @@ namespace {
 
 const char* const kDone = "done";
 
-/** The key node of a name. \throws std::runtime_error if there is none. */
+/** The key node of a name. \throws std::runtime_error if there is none: the same whether its robot
+ * has been read already or not, since reading runs ahead by chance. */
 KeyframeId keyNode(const std::string& name, const RobotTable& robots, const PoseGraph& graph) {
-  const KeyframeId id = robots.parse(name);
-  if (!graph.contains(id)) throw std::runtime_error("there is no key node " + name + " yet");
-  return id;
+  try {
+    const KeyframeId id = robots.parse(name);
+    if (graph.contains(id)) return id;
+  } catch (const std::runtime_error&) {
+  }
+  throw std::runtime_error("there is no key node " + name + " yet");
 }
 
 }  // namespace

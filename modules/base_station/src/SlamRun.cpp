@@ -5,6 +5,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 
@@ -45,6 +46,9 @@ class FrontEndThread {
     if (thread_.joinable()) thread_.join();
   }
 
+  /** Nothing is read, and so no robot appears, while the lock is held. */
+  std::unique_lock<std::mutex> pause() { return std::unique_lock<std::mutex>(reading_); }
+
   /** Share of the input read. */
   double progress() const { return progress_; }
 
@@ -58,8 +62,12 @@ class FrontEndThread {
   void run(const SlamConfig& config, RawlogSource& source, FrontEndTeam& team,
            const std::atomic<bool>& interrupted) {
     while (!interrupted) {
-      const auto observation = source.next();
-      requireArrivals(config, source.robots());  // robots appear as they are read
+      std::optional<InputObservation> observation;
+      {
+        const std::lock_guard<std::mutex> lock(reading_);
+        observation = source.next();
+        requireArrivals(config, source.robots());  // robots appear as they are read
+      }
       if (!observation || !team.observe(*observation)) break;
       progress_ = source.progress();
     }
@@ -67,6 +75,7 @@ class FrontEndThread {
   }
 
   InProcessQueue& queue_;
+  std::mutex reading_;
   std::atomic<double> progress_{0};
   std::exception_ptr failure_;
   std::thread thread_;
@@ -103,11 +112,14 @@ void SlamRun::warn(const std::vector<std::string>& warnings, const std::string& 
   for (const std::string& warning : warnings) MRPT_LOG_WARN_STREAM(prefix << warning);
 }
 
+bool SlamRun::actionDue(const BaseStation& base) const {
+  return next_action_ < job_.actions.size() &&
+         job_.actions[next_action_].key_nodes <= base.packets().size();
+}
+
 void SlamRun::act(BaseStation& base, const RobotTable& robots, bool all) {
-  const auto& actions = job_.actions;
-  for (; next_action_ < actions.size(); ++next_action_) {
-    const OperatorAction& action = actions[next_action_];
-    if (!all && action.key_nodes > base.packets().size()) return;
+  for (; all ? next_action_ < job_.actions.size() : actionDue(base); ++next_action_) {
+    const OperatorAction& action = job_.actions[next_action_];
     const std::string outcome = base.apply(action, robots);
     if (outcome != "done") MRPT_LOG_WARN_STREAM(action.where << ": not done: " << outcome);
   }
@@ -136,12 +148,15 @@ std::string SlamRun::run() {
     arena.execute([&] {
       while (const auto message = interrupted_ ? std::nullopt : delivery.receive()) {
         std::visit([&](const auto& content) { base_station.receive(content); }, *message);
-        act(base_station, robots, false);
+        if (actionDue(base_station)) {
+          const auto paused = front_end.pause();
+          act(base_station, robots, false);
+        }
         progress.show(front_end.progress() * delivery.share(), describeLoops(base_station));
       }
       queue.closeReceiver();  // after Ctrl-C the front end may be waiting for room in the queue
       base_station.finish(interrupted_);
-      act(base_station, robots, !interrupted_);
+      if (!interrupted_) act(base_station, robots, true);
       base_station.finish(interrupted_);
     });
     front_end.join();

@@ -34,7 +34,8 @@ class SlamRun : public mrpt::system::COutputLogger {
   std::string run();
 
  private:
-  /** Does those that are due, or all. */
+  bool actionDue(const BaseStation& base) const;
+  /** Does the actions that are due, or all. */
   void act(BaseStation& base, const RobotTable& robots, bool all);
   void warn(const std::vector<std::string>& warnings, const std::string& prefix = "");
 
