@@ -170,9 +170,13 @@ class GncRun {
       result.loops.push_back(
           {e, weight > 0 ? Verdict::kInlier : Verdict::kOutlier, weight, problem_->chi2(e)});
     }
-    result.report = {last_.usable,  "GNC: " + stopping_ + "; last solve: " + last_.termination,
-                     iterations_,   rounds_,
-                     initial_cost_, last_.final_cost};
+    result.report = {last_.usable,
+                     "GNC: " + stopping_ + "; last solve: " + last_.termination,
+                     iterations_,
+                     rounds_,
+                     initial_cost_,
+                     last_.final_cost,
+                     {}};
     return result;
   }
 

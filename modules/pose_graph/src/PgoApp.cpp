@@ -17,7 +17,7 @@ namespace lamp {
 namespace {
 
 struct Arguments {
-  std::string graph, config, out, json;
+  std::string graph, config, out, json, covariances;
   double add_outliers = 0;
   int seed = 1;
 };
@@ -44,6 +44,9 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--json", arguments.json,
                  "Writes figures, and weight, verdict and chi2 of each edge; - for stdout")
       ->type_name("FILE");
+  app.add_option("--covariances", arguments.covariances,
+                 "Writes the covariance of each node's pose at the solution")
+      ->type_name("FILE.csv");
 }
 
 /** The back end's part of `[pipeline]`; the other keys are lamp-slam's. */
@@ -90,6 +93,8 @@ void run(const Arguments& arguments) {
     throw std::runtime_error("the optimisation failed: " + result.report.termination);
   applyResult(result, g2o.graph);
   writeTextFile(arguments.out, toG2o(g2o.graph, g2o.ids));
+  if (!arguments.covariances.empty())
+    writeTextFile(arguments.covariances, covarianceTable(g2o).text());
   std::cout << (arguments.json == "-" ? report.dump(1) + "\n" : pgoSummary(report));
 }
 

@@ -1,5 +1,9 @@
 #include "PgoReport.h"
 
+#include <array>
+
+#include "lamp/pose_graph/MarginalCovariances.h"
+
 #include <iomanip>
 #include <sstream>
 
@@ -78,6 +82,23 @@ Json pgoReport(const G2oGraph& g2o, const OptimizationResult& result, size_t tru
   if (true_edges < rows.size()) report["outliers"] = scores(result, true_edges);
   report["edge_rows"] = rows;
   return report;
+}
+
+CsvTable covarianceTable(const G2oGraph& g2o) {
+  constexpr std::array<const char*, 6> kAxes = {"x", "y", "z", "rx", "ry", "rz"};
+  CsvTable table{{"id"}, {}};
+  for (size_t i = 0; i < kAxes.size(); ++i)
+    for (size_t j = i; j < kAxes.size(); ++j)
+      table.columns.push_back(std::string(kAxes[i]) + "_" + kAxes[j]);
+  const MarginalCovariances marginals(g2o.graph);
+  for (const Node& node : g2o.graph.nodes()) {
+    const Matrix6d covariance = marginals.covariance(node.id);
+    std::vector<std::string> row = {std::to_string(g2o.ids[g2o.graph.place(node.id)])};
+    for (int i = 0; i < 6; ++i)
+      for (int j = i; j < 6; ++j) row.push_back(formatDouble(covariance(i, j)));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
 }
 
 std::string pgoSummary(const Json& report) {

@@ -7,6 +7,7 @@
 
 #include "TemporaryFolder.h"
 #include "TestGraphs.h"
+#include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 #include "lamp/pose_graph/G2oFile.h"
 
@@ -89,6 +90,21 @@ TEST_F(PgoApp, AnIniOfLampSlamChoosesTheBackEnd) {
   const nlohmann::json report = nlohmann::json::parse(out);
   EXPECT_EQ(report["inliers"], 100);
   EXPECT_EQ(report["rounds"], 1);
+}
+
+TEST_F(PgoApp, CovariancesGrowFromTheFirstNode) {
+  ASSERT_EQ(run({file("graph.g2o"), "--out", file("out.g2o"), "--covariances", file("c.csv")}), 0)
+      << err;
+  const CsvTable table = CsvTable::fromFile(file("c.csv"));
+  ASSERT_EQ(table.rows.size(), 90u);
+  EXPECT_EQ(table.columns.size(), 1u + 21u);
+  const auto variance = [&](size_t row, const char* column) {
+    return std::stod(table.rows[row][table.column(column)]);
+  };
+  EXPECT_EQ(variance(0, "x_x"), 0);
+  EXPECT_GT(variance(1, "x_x"), 0);
+  EXPECT_GT(variance(10, "x_x"), variance(1, "x_x"));
+  EXPECT_LT(variance(10, "x_x"), 1.0);
 }
 
 TEST_F(PgoApp, WrongUseAndWrongFilesAreTold) {
