@@ -232,7 +232,8 @@ void count(const TruePair& pair, const LoopClosureAttempt& attempt, double secon
   }
 }
 
-/** A line of the file of details: errors of start and result, and all scores. */
+/** A line of the file of details: errors of start and result, all scores, and, where all directions
+ * are known, the squared Mahalanobis error and each axis' by the variance claimed. */
 std::string describe(const std::string& start, const TruePair& pair,
                      const LoopClosureAttempt& attempt, const RobotTable& robots) {
   const RegistrationResult& result = attempt.result;
@@ -247,8 +248,8 @@ std::string describe(const std::string& start, const TruePair& pair,
   if (attempt.accepted && result.unobserved.empty()) {
     const Vector6d d = logSE3(result.target_T_source.inverse() * pair.from_T_to);
     line << ",d2=" << d.dot(result.information * d);
-    const Eigen::Matrix<double, 6, 1> n = d.cwiseAbs2().cwiseQuotient(result.information.inverse().diagonal());
-    for (int k = 0; k < 6; ++k) line << ",n" << k << "=" << n[k];
+    const Matrix6d covariance = result.information.inverse();
+    for (int k = 0; k < 6; ++k) line << ",n" << k << "=" << d[k] * d[k] / covariance(k, k);
   }
   return line.str();
 }

@@ -68,7 +68,8 @@ std::string OperatorState::applyToLoop(const OperatorAction& action, const Robot
   if (!loop) return "no such loop closure has been verified yet";
   const Pair pair(loop->candidate.from, loop->candidate.to);
   restore(*loop->edge, pair);
-  if (action.kind == ActionKind::kPin) pinned_.insert(*loop->edge);
+  const bool by_hand = action.kind == ActionKind::kRestore && added_.count(*loop->edge);
+  if (action.kind == ActionKind::kPin || by_hand) pinned_.insert(*loop->edge);
   if (action.kind == ActionKind::kRemove || action.kind == ActionKind::kVeto)
     removed_.insert(*loop->edge);
   if (action.kind == ActionKind::kVeto) vetoed_.insert(pair);

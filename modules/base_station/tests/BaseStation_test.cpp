@@ -382,6 +382,16 @@ class OperatorAfterScriptedLoops : public ScriptedLoops {
     action.robot = "A";
     return station_->base.apply(action, robots_);
   }
+  static OperatorAction byHand(const std::string& from, const std::string& to, double x_m) {
+    OperatorAction action;
+    action.kind = ActionKind::kAdd;
+    action.from = from;
+    action.to = to;
+    action.position << x_m, 0, 0;
+    action.sigma_m = 1e-4;
+    action.sigma_deg = 0.01;
+    return action;
+  }
   size_t theLoop() const { return attempts(11).at(0)->loop_id; }
   double lastX() const { return station_->base.keyframeTrajectory(kA)[11].pose.translation().x(); }
 
@@ -411,14 +421,7 @@ TEST_F(OperatorAfterScriptedLoops, OnlyARemovedPairIsTriedAgainWhenItsGuessMoves
   for (const ActionKind kind : {ActionKind::kVeto, ActionKind::kRemove}) {
     run(kRetryFrom2m);
     apply(kind, theLoop());
-    OperatorAction move;
-    move.kind = ActionKind::kAdd;
-    move.from = "A:1";
-    move.to = "A:11";
-    move.position << 10, 0, 0;
-    move.sigma_m = 1e-4;
-    move.sigma_deg = 0.01;
-    EXPECT_EQ(station_->base.apply(move, robots_), "done");
+    EXPECT_EQ(station_->base.apply(byHand("A:1", "A:11", 10), robots_), "done");
     const std::atomic<bool> interrupted{false};
     station_->base.finish(interrupted);
     EXPECT_EQ(attempts(11).size(), kind == ActionKind::kVeto ? 1u : 2u);
@@ -427,19 +430,18 @@ TEST_F(OperatorAfterScriptedLoops, OnlyARemovedPairIsTriedAgainWhenItsGuessMoves
 
 TEST_F(OperatorAfterScriptedLoops, ALoopByHandIsPinned) {
   run(kRetryFrom2m);
-  OperatorAction action;
-  action.kind = ActionKind::kAdd;
-  action.from = "A:0";
-  action.to = "A:5";
-  action.position << 3, 0, 0;
-  action.sigma_m = 1e-4;
-  action.sigma_deg = 0.01;
-  EXPECT_EQ(station_->base.apply(action, robots_), "done");
-  EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[5].pose.translation().x(), 3, 0.01);
-  const LedgerRow& row = *attempts(5).back();
+  const auto fifthX = [&] {
+    return station_->base.keyframeTrajectory(kA)[5].pose.translation().x();
+  };
+  EXPECT_EQ(station_->base.apply(byHand("A:0", "A:5", 3), robots_), "done");
+  EXPECT_NEAR(fifthX(), 3, 0.01);
+  const LedgerRow row = *attempts(5).back();
   EXPECT_EQ(row.candidate.generator, "operator");
   EXPECT_EQ(apply(ActionKind::kRemove, row.loop_id), "done");
-  EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[5].pose.translation().x(), 5 * 16.0 / 11, 0.05);
+  EXPECT_NEAR(fifthX(), 5 * 16.0 / 11, 0.05);
+  EXPECT_EQ(apply(ActionKind::kRestore, row.loop_id), "done");
+  EXPECT_NEAR(fifthX(), 3, 0.01);
+  EXPECT_TRUE(station_->base.graph().edges()[*row.edge].pinned) << "as it was before";
 }
 
 TEST_F(OperatorAfterScriptedLoops, WhileFrozenNothingMoves) {
