@@ -110,7 +110,7 @@ std::string nodeLines(const PoseGraph& graph, const TextFormat& format, const Id
 std::string edgeLines(const PoseGraph& graph, const TextFormat& format, const Ids& ids) {
   std::string text;
   for (const Edge& edge : graph.edges()) {
-    if (edge.type == EdgeType::kPrior || !edge.active()) continue;
+    if (!edge.joinsPoses() || !edge.active()) continue;
     text += std::string(format.edge) + " " + std::to_string(ids[graph.place(edge.from)]) + " " +
             std::to_string(ids[graph.place(edge.to)]) + joined(format.pose(edge.from_T_to)) +
             joined(upperTriangle(format.information(edge))) + "\n";

@@ -3,9 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <stdexcept>
+
+#include "lamp/core/DisjointSets.h"
 
 namespace lamp {
 
@@ -14,24 +15,6 @@ namespace {
 std::string describe(KeyframeId id) {
   return std::to_string(id.robot.value) + ":" + std::to_string(id.index);
 }
-
-/** Disjoint sets with path halving. */
-class UnionFind {
- public:
-  explicit UnionFind(size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), size_t{0});
-  }
-  size_t root(size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(size_t a, size_t b) {
-    parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
-  }
-
- private:
-  std::vector<size_t> parent_;
-};
 
 bool isInformation(const Matrix6d& m) {
   if (!m.allFinite()) return false;
@@ -51,6 +34,16 @@ const char* toString(EdgeType type) {
       return "prior";
     case EdgeType::kLoopClosure:
       return "loop_closure";
+    case EdgeType::kGravity:
+      return "gravity";
+    case EdgeType::kPosition:
+      return "position";
+    case EdgeType::kBearingRange:
+      return "bearing_range";
+    case EdgeType::kRange:
+      return "range";
+    case EdgeType::kRobotRange:
+      return "robot_range";
   }
   return "";
 }
@@ -80,15 +73,32 @@ EdgeIndex PoseGraph::addEdge(const Edge& edge) {
       std::string(toString(edge.type)) + " " + describe(edge.from) + " - " + describe(edge.to);
   if (!contains(edge.from) || !contains(edge.to))
     throw std::logic_error("pose graph: " + name + " has an end that is not in the graph");
-  if ((edge.from == edge.to) != (edge.type == EdgeType::kPrior))
-    throw std::logic_error("pose graph: " + name + " must join two key nodes, a prior only one");
-  if (!isFinite(edge.from_T_to))
+  const bool needs_two = edge.joinsPoses() || edge.type == EdgeType::kRobotRange;
+  if ((edge.from != edge.to) != needs_two)
+    throw std::logic_error("pose graph: " + name + " must have " +
+                           (needs_two ? "two key nodes" : "one key node"));
+  if (edge.endsAtLandmark() && edge.landmark >= landmarks_.size())
+    throw std::logic_error("pose graph: " + name + " has a landmark that is not in the graph");
+  if (!isFinite(edge.from_T_to) || !edge.from_p_sensor.allFinite() || !edge.to_p_sensor.allFinite())
     throw std::invalid_argument("pose graph: the measurement of " + name + " is not finite");
   if (!isInformation(edge.information))
     throw std::invalid_argument("pose graph: the information matrix of " + name +
                                 " is not finite, symmetric and positive semi-definite");
   edges_.push_back(edge);
   return edges_.size() - 1;
+}
+
+LandmarkIndex PoseGraph::addLandmark(const Landmark& landmark) {
+  if (!landmark_by_name_.emplace(landmark.name, landmarks_.size()).second)
+    throw std::logic_error("pose graph: landmark '" + landmark.name + "' is there already");
+  landmarks_.push_back(landmark);
+  return landmarks_.size() - 1;
+}
+
+std::optional<LandmarkIndex> PoseGraph::findLandmark(const std::string& name) const {
+  const auto found = landmark_by_name_.find(name);
+  if (found == landmark_by_name_.end()) return std::nullopt;
+  return found->second;
 }
 
 const std::vector<KeyframeId>& PoseGraph::robotNodes(RobotId robot) const {
@@ -117,7 +127,7 @@ bool PoseGraph::shareFrame(RobotId a, RobotId b) const {
     if (edge.type == EdgeType::kPrior) {
       if (in_world) group[root(edge.from.robot)] = root(*in_world);
       in_world = root(edge.from.robot);
-    } else if (edge.betweenRobots() && edge.verdict == Verdict::kInlier) {
+    } else if (edge.isLoopClosure() && edge.betweenRobots() && edge.verdict == Verdict::kInlier) {
       group[root(edge.from.robot)] = root(edge.to.robot);
     }
   }
@@ -130,9 +140,9 @@ bool PoseGraph::planar() const {
 }
 
 std::vector<Component> PoseGraph::components() const {
-  UnionFind sets(nodes_.size());
+  DisjointSets sets(nodes_.size());
   for (const Edge& edge : edges_)
-    if (edge.type != EdgeType::kPrior && edge.active()) sets.join(place(edge.from), place(edge.to));
+    if (edge.joinsPoses() && edge.active()) sets.join(place(edge.from), place(edge.to));
 
   std::map<size_t, Component> by_root;
   for (size_t i = 0; i < nodes_.size(); ++i) by_root[sets.root(i)].nodes.push_back(nodes_[i].id);

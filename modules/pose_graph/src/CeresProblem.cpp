@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "FinitePoses.h"
-#include "GaugeAnchors.h"
 #include "SquareRoot.h"
+#include "Unknowns.h"
 
 namespace lamp {
 
@@ -21,30 +21,73 @@ void setIdentity(double* row_major) {
 }
 
 /** Right perturbation of a pose. Cost functions give their Jacobians in the tangent space, padded
- * with zero columns; the "plus Jacobian" only has to cut the padding off. */
-template <class Space>
+ * with zero columns; the "plus Jacobian" only has to cut the padding off.
+ * \tparam kDof of the tangent's coordinates, the first so many move. */
+template <class Space, int kDof>
 class PoseManifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return Space::kSize; }
-  int TangentSize() const override { return Space::kDof; }
+  int TangentSize() const override { return kDof; }
 
   bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
-    const typename Space::Tangent d = Eigen::Map<const typename Space::Tangent>(delta);
+    typename Space::Tangent d = Space::Tangent::Zero();
+    d.template head<kDof>() = Eigen::Map<const Eigen::Matrix<double, kDof, 1>>(delta);
     Space::store(Space::plus(Space::load(x), d), x_plus_delta);
     return true;
   }
   bool PlusJacobian(const double*, double* jacobian) const override {
-    setIdentity<Space::kSize, Space::kDof>(jacobian);
+    setIdentity<Space::kSize, kDof>(jacobian);
     return true;
   }
   bool Minus(const double* y, const double* x, double* y_minus_x) const override {
-    Eigen::Map<typename Space::Tangent> difference(y_minus_x);
-    difference = Space::minus(Space::load(y), Space::load(x));
+    Eigen::Map<Eigen::Matrix<double, kDof, 1>> difference(y_minus_x);
+    difference = Space::minus(Space::load(y), Space::load(x)).template head<kDof>();
     return true;
   }
   bool MinusJacobian(const double*, double* jacobian) const override {
-    setIdentity<Space::kDof, Space::kSize>(jacobian);
+    setIdentity<kDof, Space::kSize>(jacobian);
     return true;
+  }
+};
+
+/** Turns of a pose in space about the world's level axes, in place. */
+class TiltManifold : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return Se3::kSize; }
+  int TangentSize() const override { return 2; }
+
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
+    Pose3 T = Se3::load(x);
+    T.linear() = turn(delta[0], delta[1]) * T.linear();
+    Se3::store(T, x_plus_delta);
+    return true;
+  }
+  bool PlusJacobian(const double* x, double* jacobian) const override {
+    // A turn d of the world is one of Rᵀ d in the pose's own frame.
+    Eigen::Map<Eigen::Matrix<double, Se3::kSize, 2, Eigen::RowMajor>> J(jacobian);
+    J.setZero();
+    J.middleRows<3>(3) = Se3::load(x).linear().transpose().leftCols<2>();
+    return true;
+  }
+  bool Minus(const double* y, const double* x, double* y_minus_x) const override {
+    Pose3 turned = Pose3::Identity();
+    turned.linear() = Se3::load(y).linear() * Se3::load(x).linear().transpose();
+    Eigen::Map<Eigen::Vector2d> difference(y_minus_x);
+    difference = logSE3(turned).segment<2>(3);
+    return true;
+  }
+  bool MinusJacobian(const double* x, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 2, Se3::kSize, Eigen::RowMajor>> J(jacobian);
+    J.setZero();
+    J.middleCols<3>(3) = Se3::load(x).linear().topRows<2>();
+    return true;
+  }
+
+ private:
+  static Eigen::Matrix3d turn(double x, double y) {
+    Vector6d d = Vector6d::Zero();
+    d.segment<2>(3) << x, y;
+    return expSE3(d).linear();
   }
 };
 
@@ -56,10 +99,11 @@ void storeJacobian(const typename Space::Jacobian& jacobian, double* block) {
   padded.template leftCols<Space::kDof>() = jacobian;
 }
 
+/** A term of two poses. */
 template <class Space>
-class RelativeCost : public ceres::SizedCostFunction<Space::kDof, Space::kSize, Space::kSize> {
+class BinaryCost : public ceres::SizedCostFunction<Space::kDof, Space::kSize, Space::kSize> {
  public:
-  explicit RelativeCost(const PoseTerm<Space>& term)
+  explicit BinaryCost(const PoseTerm<Space>& term)
       : term_(term), root_(squareRoot(term.information)) {}
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
@@ -67,8 +111,8 @@ class RelativeCost : public ceres::SizedCostFunction<Space::kDof, Space::kSize, 
     const bool want_from = jacobians && jacobians[0], want_to = jacobians && jacobians[1];
     Jacobian d_from, d_to;
     const typename Space::Tangent error =
-        Space::relativeError(term_.measured, Space::load(blocks[0]), Space::load(blocks[1]),
-                             want_from ? &d_from : nullptr, want_to ? &d_to : nullptr);
+        term_.error(Space::load(blocks[0]), Space::load(blocks[1]), want_from ? &d_from : nullptr,
+                    want_to ? &d_to : nullptr);
     const Jacobian root = std::sqrt(term_.weight) * root_;
     Eigen::Map<typename Space::Tangent> whitened(residuals);
     whitened = root * error;
@@ -83,17 +127,18 @@ class RelativeCost : public ceres::SizedCostFunction<Space::kDof, Space::kSize, 
 };
 
 template <class Space>
-class PriorCost : public ceres::SizedCostFunction<Space::kDof, Space::kSize> {
+class UnaryCost : public ceres::SizedCostFunction<Space::kDof, Space::kSize> {
  public:
-  explicit PriorCost(const PoseTerm<Space>& term)
+  explicit UnaryCost(const PoseTerm<Space>& term)
       : term_(term), root_(squareRoot(term.information)) {}
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     using Jacobian = typename Space::Jacobian;
     const bool want = jacobians && jacobians[0];
+    const typename Space::Pose pose = Space::load(blocks[0]);
     Jacobian d_pose;
     const typename Space::Tangent error =
-        Space::priorError(term_.measured, Space::load(blocks[0]), want ? &d_pose : nullptr);
+        term_.error(pose, pose, nullptr, want ? &d_pose : nullptr);
     const Jacobian root = std::sqrt(term_.weight) * root_;
     Eigen::Map<typename Space::Tangent> whitened(residuals);
     whitened = root * error;
@@ -132,25 +177,27 @@ ceres::Problem::Options problemOptions() {
 }  // namespace
 
 template <class Space>
-CeresProblem<Space>::CeresProblem(const PoseGraph& graph, const std::vector<Pose3>& world_T_base)
+CeresProblem<Space>::CeresProblem(const PoseGraph& graph, const std::vector<Pose3>& poses)
     : graph_(graph),
-      manifold_(std::make_unique<PoseManifold<Space>>()),
-      blocks_(graph.nodes().size()),
+      pose_manifold_(std::make_unique<PoseManifold<Space, Space::kDof>>()),
+      position_manifold_(std::make_unique<PoseManifold<Space, Space::kPositionDof>>()),
+      tilt_manifold_(std::make_unique<TiltManifold>()),
+      blocks_(graph.nodes().size() + graph.landmarks().size()),
       terms_(poseTerms<Space>(graph)) {
   for (const PoseTerm<Space>& term : terms_) {
-    if (term.prior)
-      costs_.push_back(std::make_unique<PriorCost<Space>>(term));
+    if (term.isUnary())
+      costs_.push_back(std::make_unique<UnaryCost<Space>>(term));
     else
-      costs_.push_back(std::make_unique<RelativeCost<Space>>(term));
+      costs_.push_back(std::make_unique<BinaryCost<Space>>(term));
   }
-  setPoses(world_T_base);
+  setPoses(poses);
 }
 
 template <class Space>
-void CeresProblem<Space>::setPoses(const std::vector<Pose3>& world_T_base) {
-  checkFinite(graph_, world_T_base);
+void CeresProblem<Space>::setPoses(const std::vector<Pose3>& poses) {
+  checkFinite(graph_, poses);
   for (size_t i = 0; i < blocks_.size(); ++i)
-    Space::store(Space::fromPose3(world_T_base[i]), blocks_[i].data());
+    Space::store(Space::fromPose3(poses[i]), blocks_[i].data());
 }
 
 template <class Space>
@@ -179,21 +226,27 @@ SolveSummary CeresProblem<Space>::solve(const SolverOptions& options) {
 
 template <class Space>
 void CeresProblem<Space>::build(ceres::Problem& problem) {
-  for (Block& block : blocks_)
-    problem.AddParameterBlock(block.data(), Space::kSize, manifold_.get());
   std::vector<double> weights;
+  for (const PoseTerm<Space>& term : terms_) weights.push_back(term.weight);
+  const Unknowns unknowns = findUnknowns(graph_, weights);
+  const size_t nodes = graph_.nodes().size();
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    double* const block = blocks_[i].data();
+    const auto& manifold = i < nodes ? pose_manifold_ : position_manifold_;
+    problem.AddParameterBlock(block, Space::kSize, manifold.get());
+    if (unknowns.row[i] < 0) problem.SetParameterBlockConstant(block);
+  }
+  for (const size_t anchor : unknowns.level_anchors)
+    problem.SetManifold(blocks_[anchor].data(), tilt_manifold_.get());
   for (size_t e = 0; e < terms_.size(); ++e) {
     const PoseTerm<Space>& term = terms_[e];
-    weights.push_back(term.weight);
     if (term.weight <= 0) continue;
-    double* const from = blocks_[term.from].data();
-    if (term.prior)
-      problem.AddResidualBlock(costs_[e].get(), nullptr, from);
+    double* const to = blocks_[term.to].data();
+    if (term.isUnary())
+      problem.AddResidualBlock(costs_[e].get(), nullptr, to);
     else
-      problem.AddResidualBlock(costs_[e].get(), nullptr, from, blocks_[term.to].data());
+      problem.AddResidualBlock(costs_[e].get(), nullptr, blocks_[term.from].data(), to);
   }
-  for (const size_t anchor : gaugeAnchors(graph_, weights))
-    problem.SetParameterBlockConstant(blocks_[anchor].data());
 }
 
 template class CeresProblem<Se2>;

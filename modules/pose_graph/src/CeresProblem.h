@@ -19,9 +19,9 @@ namespace lamp {
 template <class Space>
 class CeresProblem : public PoseProblem {
  public:
-  CeresProblem(const PoseGraph& graph, const std::vector<Pose3>& world_T_base);
+  CeresProblem(const PoseGraph& graph, const std::vector<Pose3>& poses);
 
-  void setPoses(const std::vector<Pose3>& world_T_base) override;
+  void setPoses(const std::vector<Pose3>& poses) override;
   std::vector<Pose3> poses() const override;
   void setWeight(EdgeIndex edge, double weight) override { terms_[edge].weight = weight; }
   double chi2(EdgeIndex edge) const override;
@@ -33,7 +33,7 @@ class CeresProblem : public PoseProblem {
   void build(ceres::Problem& problem);
 
   const PoseGraph& graph_;
-  std::unique_ptr<ceres::Manifold> manifold_;
+  std::unique_ptr<ceres::Manifold> pose_manifold_, position_manifold_, tilt_manifold_;
   std::vector<Block> blocks_;
   std::vector<PoseTerm<Space>> terms_;  ///< never grows after construction: costs refer to them
   std::vector<std::unique_ptr<ceres::CostFunction>> costs_;

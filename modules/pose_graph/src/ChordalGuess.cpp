@@ -81,7 +81,7 @@ class VectorField {
 std::vector<const Edge*> relativeEdges(const PoseGraph& graph) {
   std::vector<const Edge*> edges;
   for (const Edge& edge : graph.edges())
-    if (edge.type != EdgeType::kPrior && edge.active()) edges.push_back(&edge);
+    if (edge.joinsPoses() && edge.active()) edges.push_back(&edge);
   return edges;
 }
 

@@ -53,7 +53,7 @@ bool farApart(KeyframeId a, KeyframeId b) {
 void addFalseLoops(PoseGraph& graph, double share, unsigned seed) {
   std::vector<Edge> loops;
   for (const Edge& edge : graph.edges())
-    if (edge.mayBeRejected()) loops.push_back(edge);
+    if (edge.isLoopClosure()) loops.push_back(edge);
   const size_t count = loops.size(), nodes = graph.nodes().size();
   if (count == 0 || nodes < 3) return;
   const auto wanted = static_cast<size_t>(std::lround(share / (1.0 - share) * count));

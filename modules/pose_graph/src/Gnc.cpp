@@ -7,6 +7,7 @@
 #include "GncMemory.h"
 #include "Information.h"
 #include "PoseProblem.h"
+#include "SolveStart.h"
 #include "TruncatedLeastSquares.h"
 #include "lamp/core/ChiSquare.h"
 #include "lamp/pose_graph/InitialGuess.h"
@@ -28,7 +29,7 @@ std::unique_ptr<Graduation> makeGraduation(const std::string& loss) {
   return std::make_unique<TruncatedLeastSquares>();
 }
 
-/** A loop closure that may be rejected. */
+/** A loop closure, or other edge that may be rejected. */
 struct GncLoop {
   EdgeIndex edge;
   double threshold;  ///< the largest squared residual of an inlier
@@ -67,24 +68,26 @@ class GncRun {
          const GncMemory* memory)
       : graph_(graph),
         options_(options),
-        guess_(memory ? continuedPoses(graph, *memory, initialGuess(graph, admitted))
-                      : initialGuess(graph, admitted)),
-        problem_(makePoseProblem(options.solver, graph, guess_)),
+        start_(completeStart(graph,
+                             memory ? continuedPoses(graph, *memory, initialGuess(graph, admitted))
+                                    : initialGuess(graph, admitted),
+                             admitted)),
+        problem_(makePoseProblem(options.solver, graph, start_.poses)),
         graduation_(makeGraduation(options.loss)),
-        loops_(gncLoops(graph, admitted, options.inlier_probability)),
+        loops_(gncLoops(graph, start_.admitted, options.inlier_probability)),
         inner_(options.final_solve) {
     inner_.max_iterations = options.inner_iterations;
     inner_.function_tolerance = std::max(inner_.function_tolerance, kInnerTolerance);
     if (memory) keepVerdicts(*memory, loops_);
     for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
-      if (!admitted[e] && graph.edges()[e].mayBeRejected()) problem_->setWeight(e, 0.0);
+      if (!start_.admitted[e] && graph.edges()[e].mayBeRejected()) problem_->setWeight(e, 0.0);
     for (const GncLoop& loop : loops_) problem_->setWeight(loop.edge, loop.weight);
   }
 
   OptimizationResult run() {
     if (!loops_.empty()) solveFromGuess();
     if (largest(residuals2()) > 1.0) {
-      if (options_.gnc_bias_odom) problem_->setPoses(guess_);
+      if (options_.gnc_bias_odom) problem_->setPoses(start_.poses);
       graduation_->start(std::max(largest(residuals2()), kLeastStart));
       graduate();
     }
@@ -119,7 +122,7 @@ class GncRun {
   }
 
   void solveFromGuess() {
-    problem_->setPoses(guess_);
+    problem_->setPoses(start_.poses);
     note(problem_->solve(inner_));
   }
 
@@ -161,7 +164,7 @@ class GncRun {
 
   OptimizationResult result() const {
     OptimizationResult result;
-    result.world_T_base = problem_->poses();
+    splitSolution(graph_, start_, problem_->poses(), result);
     auto loop = loops_.begin();
     for (EdgeIndex e = 0; e < graph_.edges().size(); ++e) {
       if (!graph_.edges()[e].mayBeRejected()) continue;
@@ -188,7 +191,7 @@ class GncRun {
 
   const PoseGraph& graph_;
   const GncOptions& options_;
-  const std::vector<Pose3> guess_;
+  const SolveStart start_;
   std::unique_ptr<PoseProblem> problem_;
   std::unique_ptr<Graduation> graduation_;
   std::vector<GncLoop> loops_;

@@ -8,7 +8,9 @@ namespace {
 
 bool sameMeasurement(const Edge& a, const Edge& b) {
   return a.type == b.type && a.pinned == b.pinned && a.from == b.from && a.to == b.to &&
-         a.from_T_to.matrix() == b.from_T_to.matrix() && a.information == b.information;
+         a.from_T_to.matrix() == b.from_T_to.matrix() && a.information == b.information &&
+         a.landmark == b.landmark && a.from_p_sensor == b.from_p_sensor &&
+         a.to_p_sensor == b.to_p_sensor;
 }
 
 }  // namespace

@@ -141,8 +141,9 @@ void Icm::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
   const Consistency consistency(chains, options_, graph.planar());
   std::map<std::pair<int, int>, std::vector<DirectedLoop>> loops;
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
-    if (!graph.edges()[e].mayBeRejected() || !admitted[e]) continue;
-    const DirectedLoop loop = directed(e, graph.edges()[e], graph.planar());
+    const Edge& edge = graph.edges()[e];
+    if (!edge.isLoopClosure() || edge.pinned || !admitted[e]) continue;
+    const DirectedLoop loop = directed(e, edge, graph.planar());
     if (consistency.agreesWithOdometry(loop))
       loops[{chains.chain(loop.from), chains.chain(loop.to)}].push_back(loop);
     else

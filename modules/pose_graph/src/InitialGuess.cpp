@@ -21,7 +21,7 @@ class TreeLayout {
         placed_(graph.nodes().size(), false),
         poses_(graph.nodes().size(), Pose3::Identity()) {
     for (const Edge& edge : graph.edges()) {
-      if (edge.type == EdgeType::kPrior || !edge.active()) continue;
+      if (!edge.joinsPoses() || !edge.active()) continue;
       const size_t from = graph.place(edge.from), to = graph.place(edge.to);
       steps_[from].push_back({to, edge.from_T_to});
       steps_[to].push_back({from, edge.from_T_to.inverse()});

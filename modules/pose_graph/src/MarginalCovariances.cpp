@@ -6,6 +6,7 @@
 #include "BlockCholesky.h"
 #include "GaugeAnchors.h"
 #include "NormalEquations.h"
+#include "Unknowns.h"
 
 namespace lamp {
 
@@ -15,6 +16,14 @@ namespace {
  * the edges do not know. */
 constexpr double kLeastInformation = 1e-6, kLeastShare = 1e-12;
 constexpr double kOutOfPlaneVariance = 1e-6;
+
+/** Edges beside loop closures wait for the optimiser's verdict: what they measure may not be placed
+ * yet. */
+bool counts(const PoseGraph& graph, const Edge& edge) {
+  if (edge.endsAtLandmark() && !graph.landmarks()[edge.landmark].placed) return false;
+  if (edge.mayBeRejected() && !edge.isLoopClosure()) return edge.verdict == Verdict::kInlier;
+  return edge.active();
+}
 
 Matrix6d inSpace(const Matrix6d& covariance) {
   return covariance;
@@ -36,6 +45,7 @@ class MarginalCovariances::Impl {
   virtual std::vector<std::optional<Matrix6d>> relative(
       KeyframeId from, const std::vector<KeyframeId>& to) const = 0;
   virtual Matrix6d absolute(KeyframeId id) const = 0;
+  virtual Eigen::Matrix3d ofLandmark(LandmarkIndex landmark) const = 0;
 };
 
 template <class Space>
@@ -45,24 +55,24 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
     std::vector<PoseTerm<Space>> terms = poseTerms<Space>(graph);
     std::vector<double> weights;
     for (size_t e = 0; e < terms.size(); ++e) {
-      terms[e].weight = graph.edges()[e].active() ? graph.edges()[e].weight : 0.0;
+      terms[e].weight = counts(graph, graph.edges()[e]) ? graph.edges()[e].weight : 0.0;
       weights.push_back(terms[e].weight);
     }
     gauge_ = gauges(graph, weights);
-    std::vector<int> row;
-    int size = 0;
     for (size_t i = 0; i < graph.nodes().size(); ++i) {
       place_.emplace(graph.nodes()[i].id, i);
       poses_.push_back(Space::fromPose3(normalized(graph.nodes()[i].world_T_base)));
-      row.push_back(gauge_[i] == i ? -1 : size++);
     }
-    NormalEquations<Space> equations(terms, row, size);
+    for (const Landmark& landmark : graph.landmarks())
+      poses_.push_back(Space::fromPose3(Pose3(Eigen::Translation3d(landmark.world_p))));
+    const Unknowns unknowns = findUnknowns(graph, weights);
+    NormalEquations<Space> equations(terms, unknowns);
     equations.linearize(poses_);
     BlockMatrix<kDof> matrix = equations.matrix();
     for (auto& block : matrix.diagonal)
       block.diagonal() +=
           (kLeastShare * block.diagonal().array() + kLeastInformation).matrix().eval();
-    row_ = std::move(row);
+    row_ = unknowns.row;
     cholesky_ = std::make_unique<BlockCholesky<kDof>>(matrix);
     if (!cholesky_->factorize(matrix, 0))
       throw std::runtime_error("the pose graph's information matrix cannot be factorised");
@@ -85,10 +95,11 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
     return result;
   }
 
-  Matrix6d absolute(KeyframeId id) const override {
-    Block sum = Block::Zero();
-    for (const auto& item : column(place_.at(id))) sum += item.block.transpose() * item.block;
-    return inSpace(sum);
+  Matrix6d absolute(KeyframeId id) const override { return absolute(place_.at(id)); }
+
+  Eigen::Matrix3d ofLandmark(LandmarkIndex landmark) const override {
+    if (row_.at(place_.size() + landmark) < 0) return Eigen::Matrix3d::Zero();
+    return absolute(place_.size() + landmark).template topLeftCorner<3, 3>();
   }
 
  private:
@@ -99,6 +110,12 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
   /** Empty for a node that is held: it is known. */
   Column column(size_t node) const {
     return row_[node] < 0 ? Column() : cholesky_->inverseColumn(row_[node]);
+  }
+
+  Matrix6d absolute(size_t place) const {
+    Block sum = Block::Zero();
+    for (const auto& item : column(place)) sum += item.block.transpose() * item.block;
+    return inSpace(sum);
   }
 
   /** Z Zᵀ, where Z is the two columns' sum after the relative pose's Jacobians. */
@@ -124,7 +141,7 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
   std::unordered_map<KeyframeId, size_t> place_;
   std::vector<std::optional<size_t>> gauge_;
   std::vector<typename Space::Pose> poses_;
-  std::vector<int> row_;  ///< of each node in the equations, -1 for held ones
+  std::vector<int> row_;  ///< of each pose in the equations, -1 for held ones
   std::unique_ptr<BlockCholesky<kDof>> cholesky_;
 };
 
@@ -144,6 +161,10 @@ std::vector<std::optional<Matrix6d>> MarginalCovariances::relativeCovariances(
 
 Matrix6d MarginalCovariances::covariance(KeyframeId id) const {
   return impl_->absolute(id);
+}
+
+Eigen::Matrix3d MarginalCovariances::landmarkCovariance(LandmarkIndex landmark) const {
+  return impl_->ofLandmark(landmark);
 }
 
 }  // namespace lamp

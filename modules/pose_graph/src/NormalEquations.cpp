@@ -29,20 +29,20 @@ class PairTable {
 }  // namespace
 
 template <class Space>
-NormalEquations<Space>::NormalEquations(const std::vector<Term>& terms, const std::vector<int>& row,
-                                        int size)
-    : gradient_(kDof * size) {
+NormalEquations<Space>::NormalEquations(const std::vector<Term>& terms, const Unknowns& unknowns)
+    : unknowns_(unknowns), gradient_(kDof * unknowns.size) {
+  const std::vector<int>& row = unknowns.row;
   PairTable table(matrix_.pairs);
   for (const Term& term : terms) {
     if (term.weight <= 0) continue;
-    Place place{&term, term.prior ? -1 : row[term.from], row[term.to], -1, false};
+    Place place{&term, term.isUnary() ? -1 : row[term.from], row[term.to], -1, false};
     if (place.from >= 0 && place.to >= 0) {
       place.pair = table.number(place.from, place.to);
       place.transposed = place.from > place.to;
     }
     places_.push_back(place);
   }
-  matrix_.diagonal.resize(size);
+  matrix_.diagonal.resize(unknowns.size);
   matrix_.off_diagonal.resize(matrix_.pairs.size());
 }
 
@@ -52,7 +52,20 @@ double NormalEquations<Space>::linearize(const std::vector<Pose>& poses) {
   gradient_.setZero();
   cost_ = 0;
   for (const Place& place : places_) addTerm(place, poses);
+  holdWhatNoTermKnows(poses);
   return cost_;
+}
+
+/** The gradient is zero along these directions, and so is the step then, whatever the stiffness. */
+template <class Space>
+void NormalEquations<Space>::holdWhatNoTermKnows(const std::vector<Pose>& poses) {
+  for (int row = unknowns_.first_landmark_row; row < unknowns_.size; ++row)
+    for (int axis = Space::kPositionDof; axis < kDof; ++axis)
+      matrix_.diagonal[row](axis, axis) = 1.0;
+  for (const size_t node : unknowns_.level_anchors) {
+    auto& block = matrix_.diagonal[unknowns_.row[node]];
+    block += block.trace() * Space::positionAndYaw(poses[node]);
+  }
 }
 
 template <class Space>

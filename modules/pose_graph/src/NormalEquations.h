@@ -4,6 +4,7 @@
 
 #include "BlockMatrix.h"
 #include "PoseTerm.h"
+#include "Unknowns.h"
 
 namespace lamp {
 
@@ -16,9 +17,7 @@ class NormalEquations {
   using Pose = typename Space::Pose;
   static constexpr int kDof = Space::kDof;
 
-  /** \param row of each node in H, in blocks; -1 for nodes that are held.
-   * \param size number of rows. */
-  NormalEquations(const std::vector<Term>& terms, const std::vector<int>& row, int size);
+  NormalEquations(const std::vector<Term>& terms, const Unknowns& unknowns);
 
   /** Takes H and g at the poses. \return the cost. */
   double linearize(const std::vector<Pose>& poses);
@@ -37,7 +36,9 @@ class NormalEquations {
   };
 
   void addTerm(const Place& place, const std::vector<Pose>& poses);
+  void holdWhatNoTermKnows(const std::vector<Pose>& poses);
 
+  const Unknowns unknowns_;
   std::vector<Place> places_;
   BlockMatrix<kDof> matrix_;
   Eigen::VectorXd gradient_;

@@ -33,7 +33,7 @@ std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const std::vector<bool
   std::vector<GatedLoop> loops;
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
     const Edge& edge = graph.edges()[e];
-    if (!edge.mayBeRejected() || !admitted[e]) continue;
+    if (!edge.isLoopClosure() || edge.pinned || !admitted[e]) continue;
     const auto odometry = chains.between(edge.from, edge.to);
     if (!odometry) continue;
     const Vector6d error = logSE3(edge.from_T_to.inverse() * odometry->a_T_b);

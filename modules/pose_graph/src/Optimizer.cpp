@@ -10,6 +10,11 @@ void applyResult(const OptimizationResult& result, PoseGraph& graph) {
   if (!result.report.usable) return;
   for (size_t i = 0; i < result.world_T_base.size(); ++i)
     graph.node(graph.nodes()[i].id).world_T_base = result.world_T_base[i];
+  for (LandmarkIndex i = 0; i < result.landmarks.size(); ++i) {
+    Landmark& landmark = graph.landmarks()[i];
+    landmark.placed = landmark.known || result.landmarks[i].has_value();
+    if (result.landmarks[i]) landmark.world_p = *result.landmarks[i];
+  }
   for (const LoopVerdict& loop : result.loops) {
     Edge& edge = graph.edges()[loop.edge];
     edge.verdict = loop.verdict;

@@ -1,6 +1,7 @@
 #include "lamp/pose_graph/PlainOptimizers.h"
 
 #include "PoseProblem.h"
+#include "SolveStart.h"
 #include "lamp/pose_graph/InitialGuess.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(PlainOptimizer, Optimizer, lamp)
@@ -47,15 +48,17 @@ void PlainOptions::visit(OptionVisitor& v) {
 
 OptimizationResult PlainOptimizer::optimize(const PoseGraph& unjudged,
                                             const std::vector<bool>& admitted) {
-  const PoseGraph graph = judged(unjudged, admitted);
-  const std::unique_ptr<PoseProblem> problem =
-      makePoseProblem(solver(), graph, startOf(options_.start, graph, admitted));
+  // A start in which some loops take part must not take those that do not.
+  const std::vector<Pose3> from = startOf(options_.start, judged(unjudged, admitted), admitted);
+  const SolveStart start = completeStart(unjudged, from, admitted);
+  const PoseGraph graph = judged(unjudged, start.admitted);
+  const std::unique_ptr<PoseProblem> problem = makePoseProblem(solver(), graph, start.poses);
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
     if (!graph.edges()[e].active()) problem->setWeight(e, 0.0);
   const SolveSummary summary = problem->solve(options_.solve);
 
   OptimizationResult result;
-  result.world_T_base = problem->poses();
+  splitSolution(graph, start, problem->poses(), result);
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
     const Edge& edge = graph.edges()[e];
     if (!edge.mayBeRejected()) continue;

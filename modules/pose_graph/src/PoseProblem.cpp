@@ -9,10 +9,10 @@ namespace {
 
 template <class Space>
 std::unique_ptr<PoseProblem> make(const std::string& solver, const PoseGraph& graph,
-                                  const std::vector<Pose3>& world_T_base) {
-  if (solver == "CeresLm") return std::make_unique<CeresProblem<Space>>(graph, world_T_base);
+                                  const std::vector<Pose3>& poses) {
+  if (solver == "CeresLm") return std::make_unique<CeresProblem<Space>>(graph, poses);
   return std::make_unique<SparseProblem<Space>>(
-      graph, world_T_base, solver == "Gn" ? minimizeGaussNewton : minimizeLevenbergMarquardt);
+      graph, poses, solver == "Gn" ? minimizeGaussNewton : minimizeLevenbergMarquardt);
 }
 
 }  // namespace
@@ -23,9 +23,9 @@ const std::vector<std::string>& solverNames() {
 }
 
 std::unique_ptr<PoseProblem> makePoseProblem(const std::string& solver, const PoseGraph& graph,
-                                             const std::vector<Pose3>& world_T_base) {
-  if (graph.planar()) return make<Se2>(solver, graph, world_T_base);
-  return make<Se3>(solver, graph, world_T_base);
+                                             const std::vector<Pose3>& poses) {
+  if (graph.planar()) return make<Se2>(solver, graph, poses);
+  return make<Se3>(solver, graph, poses);
 }
 
 }  // namespace lamp

@@ -24,9 +24,10 @@ class PoseProblem {
  public:
   virtual ~PoseProblem() = default;
 
-  /** Where the next solve starts. \param world_T_base in the order of PoseGraph::nodes().
+  /** Where the next solve starts. \param poses in the order of PoseGraph::nodes(), then
+   *  landmarks(), of which only the positions count.
    * \throws std::runtime_error naming a node whose pose is not finite. */
-  virtual void setPoses(const std::vector<Pose3>& world_T_base) = 0;
+  virtual void setPoses(const std::vector<Pose3>& poses) = 0;
   virtual std::vector<Pose3> poses() const = 0;
   /** \param weight factor of the edge's squared residual, at least 0. */
   virtual void setWeight(EdgeIndex edge, double weight) = 0;
@@ -39,6 +40,6 @@ class PoseProblem {
 /** The problem of a graph that outlives it unchanged, for a solver of solverNames(). All edges have
  * weight 1 at first. \throws std::runtime_error as setPoses(). */
 std::unique_ptr<PoseProblem> makePoseProblem(const std::string& solver, const PoseGraph& graph,
-                                             const std::vector<Pose3>& world_T_base);
+                                             const std::vector<Pose3>& poses);
 
 }  // namespace lamp

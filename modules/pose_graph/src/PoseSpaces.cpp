@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "PointErrors.h"
+
 namespace lamp {
 
 Se3::Pose Se3::load(const double* block) {
@@ -44,6 +46,39 @@ Se3::Tangent Se3::priorError(const Pose& measured, const Pose& pose, Jacobian* d
   return error;
 }
 
+Se3::Tangent Se3::gravityError(const Pose& measured, const Pose& pose, Jacobian* d_pose) {
+  Eigen::Matrix3d d_rotation;
+  Tangent error = Tangent::Zero();
+  error.tail<3>() =
+      lamp::gravityError(measured.linear(), pose.linear(), d_pose ? &d_rotation : nullptr);
+  if (d_pose) {
+    d_pose->setZero();
+    d_pose->bottomRightCorner<3, 3>() = d_rotation;
+  }
+  return error;
+}
+
+PosedPoint<6> Se3::toWorld(const Pose& T, const Eigen::Vector3d& local) {
+  PosedPoint<6> point;
+  point.p = T * local;
+  point.d_pose << T.linear(), -T.linear() * skew(local);
+  return point;
+}
+
+PosedPoint<6> Se3::toLocal(const Pose& T, const Eigen::Vector3d& world) {
+  PosedPoint<6> point;
+  point.p = T.linear().transpose() * (world - T.translation());
+  point.d_pose << -Eigen::Matrix3d::Identity(), skew(point.p);
+  return point;
+}
+
+Se3::Jacobian Se3::positionAndYaw(const Pose& T) {
+  const Eigen::Vector3d up = T.linear().row(2);
+  Jacobian projection = Jacobian::Identity();
+  projection.bottomRightCorner<3, 3>() = up * up.transpose();
+  return projection;
+}
+
 namespace {
 
 double wrapped(double angle) {
@@ -59,12 +94,6 @@ Pose2 between(const Pose2& a, const Pose2& b) {
 
 Eigen::Vector3d coordinates(const Pose2& p) {
   return {p.position.x(), p.position.y(), p.yaw};
-}
-
-Eigen::Matrix3d rotationBlock(const Pose2& p) {
-  Eigen::Matrix3d block = Eigen::Matrix3d::Identity();
-  block.topLeftCorner<2, 2>() = p.rotation();
-  return block;
 }
 
 }  // namespace
@@ -108,7 +137,7 @@ Se2::Tangent Se2::relativeError(const Pose& from_T_to, const Pose& from, const P
                                 Jacobian* d_from, Jacobian* d_to) {
   const Pose estimated = between(from, to);
   const Pose error = between(from_T_to, estimated);
-  if (d_to) *d_to = rotationBlock(error);
+  if (d_to) *d_to = rotation(error);
   if (d_from) {
     const double c = from_T_to.cosine, s = from_T_to.sine;
     const double x = estimated.position.x(), y = estimated.position.y();
@@ -121,8 +150,38 @@ Se2::Tangent Se2::relativeError(const Pose& from_T_to, const Pose& from, const P
 
 Se2::Tangent Se2::priorError(const Pose& measured, const Pose& pose, Jacobian* d_pose) {
   const Pose error = between(measured, pose);
-  if (d_pose) *d_pose = rotationBlock(error);
+  if (d_pose) *d_pose = rotation(error);
   return coordinates(error);
+}
+
+Se2::Tangent Se2::gravityError(const Pose&, const Pose&, Jacobian* d_pose) {
+  if (d_pose) d_pose->setZero();
+  return Tangent::Zero();
+}
+
+PosedPoint<3> Se2::toWorld(const Pose& p, const Eigen::Vector3d& local) {
+  const Eigen::Matrix2d R = p.rotation();
+  PosedPoint<3> point;
+  point.p << p.position + R * local.head<2>(), local.z();
+  point.d_pose.setZero();
+  point.d_pose.topLeftCorner<2, 2>() = R;
+  point.d_pose.topRightCorner<2, 1>() = R * Eigen::Vector2d(-local.y(), local.x());
+  return point;
+}
+
+PosedPoint<3> Se2::toLocal(const Pose& p, const Eigen::Vector3d& world) {
+  PosedPoint<3> point;
+  point.p << p.rotation().transpose() * (world.head<2>() - p.position), world.z();
+  point.d_pose.setZero();
+  point.d_pose.topLeftCorner<2, 2>() = -Eigen::Matrix2d::Identity();
+  point.d_pose.topRightCorner<2, 1>() << point.p.y(), -point.p.x();
+  return point;
+}
+
+Eigen::Matrix3d Se2::rotation(const Pose& p) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() = p.rotation();
+  return R;
 }
 
 }  // namespace lamp

@@ -4,6 +4,13 @@
 
 namespace lamp {
 
+/** A point that depends on a pose. */
+template <int kDof>
+struct PosedPoint {
+  Eigen::Vector3d p;
+  Eigen::Matrix<double, 3, kDof> d_pose;
+};
+
 /** Poses in space, as the optimiser sees them: parameter blocks [x y z qx qy qz qw].
  *
  * Jacobians are taken with respect to right perturbations, `T · Exp(d)`, in tangent order
@@ -11,6 +18,8 @@ namespace lamp {
 struct Se3 {
   static constexpr int kDof = 6;
   static constexpr int kSize = 7;
+  /** Of the tangent's coordinates, the first so many move the position. */
+  static constexpr int kPositionDof = 3;
   using Pose = Pose3;
   using Tangent = Vector6d;
   using Jacobian = Matrix6d;
@@ -31,6 +40,17 @@ struct Se3 {
                                Jacobian* d_from, Jacobian* d_to);
   /** `Log(measured⁻¹ · pose)`. */
   static Tangent priorError(const Pose& measured, const Pose& pose, Jacobian* d_pose);
+  /** Its two components at right angles to gravity, in the rotation's coordinates. */
+  static Tangent gravityError(const Pose& measured, const Pose& pose, Jacobian* d_pose);
+
+  /** `T · local`. */
+  static PosedPoint<kDof> toWorld(const Pose& T, const Eigen::Vector3d& local);
+  /** `T⁻¹ · world`. */
+  static PosedPoint<kDof> toLocal(const Pose& T, const Eigen::Vector3d& world);
+  static Eigen::Vector3d position(const Pose& T) { return T.translation(); }
+  static Eigen::Matrix3d rotation(const Pose& T) { return T.linear(); }
+  /** Projects tangents on what gravity says nothing of. */
+  static Jacobian positionAndYaw(const Pose& T);
 };
 
 /** A pose in the plane. Sine and cosine of the yaw are kept: they cost more than all the rest. */
@@ -53,6 +73,7 @@ struct Pose2 {
 struct Se2 {
   static constexpr int kDof = 3;
   static constexpr int kSize = 3;
+  static constexpr int kPositionDof = 2;
   using Pose = Pose2;
   using Tangent = Eigen::Vector3d;
   using Jacobian = Eigen::Matrix3d;
@@ -69,6 +90,14 @@ struct Se2 {
   static Tangent relativeError(const Pose& from_T_to, const Pose& from, const Pose& to,
                                Jacobian* d_from, Jacobian* d_to);
   static Tangent priorError(const Pose& measured, const Pose& pose, Jacobian* d_pose);
+  /** Zero: a planar robot stands level. */
+  static Tangent gravityError(const Pose& measured, const Pose& pose, Jacobian* d_pose);
+
+  static PosedPoint<kDof> toWorld(const Pose& p, const Eigen::Vector3d& local);
+  static PosedPoint<kDof> toLocal(const Pose& p, const Eigen::Vector3d& world);
+  static Eigen::Vector3d position(const Pose& p) { return {p.position.x(), p.position.y(), 0.0}; }
+  static Eigen::Matrix3d rotation(const Pose& p);
+  static Jacobian positionAndYaw(const Pose&) { return Jacobian::Identity(); }
 };
 
 }  // namespace lamp

@@ -59,7 +59,8 @@ void RobotFrames::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
                            frames.joined(average.a, average.b)});
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
     const Edge& edge = graph.edges()[e];
-    if (edge.mayBeRejected() && !frames.joined(chains.chain(edge.from), chains.chain(edge.to)))
+    if (edge.isLoopClosure() && !edge.pinned &&
+        !frames.joined(chains.chain(edge.from), chains.chain(edge.to)))
       admitted[e] = false;
   }
 }

@@ -1,22 +1,21 @@
 #include "SparseProblem.h"
 
 #include "FinitePoses.h"
-#include "GaugeAnchors.h"
 
 namespace lamp {
 
 template <class Space>
-SparseProblem<Space>::SparseProblem(const PoseGraph& graph, const std::vector<Pose3>& world_T_base,
+SparseProblem<Space>::SparseProblem(const PoseGraph& graph, const std::vector<Pose3>& poses,
                                     Minimizer minimizer)
     : graph_(graph), minimize_(minimizer), terms_(poseTerms<Space>(graph)) {
-  setPoses(world_T_base);
+  setPoses(poses);
 }
 
 template <class Space>
-void SparseProblem<Space>::setPoses(const std::vector<Pose3>& world_T_base) {
-  checkFinite(graph_, world_T_base);
+void SparseProblem<Space>::setPoses(const std::vector<Pose3>& poses) {
+  checkFinite(graph_, poses);
   poses_.clear();
-  for (const Pose3& pose : world_T_base) poses_.push_back(Space::fromPose3(normalized(pose)));
+  for (const Pose3& pose : poses) poses_.push_back(Space::fromPose3(normalized(pose)));
 }
 
 template <class Space>
@@ -45,12 +44,9 @@ template <class Space>
 void SparseProblem<Space>::build() {
   std::vector<double> weights;
   for (const PoseTerm<Space>& term : terms_) weights.push_back(term.weight);
-  row_.assign(graph_.nodes().size(), 0);
-  for (const size_t anchor : gaugeAnchors(graph_, weights)) row_[anchor] = -1;
-  int size = 0;
-  for (int& row : row_)
-    if (row == 0) row = size++;
-  equations_ = std::make_unique<NormalEquations<Space>>(terms_, row_, size);
+  const Unknowns unknowns = findUnknowns(graph_, weights);
+  row_ = unknowns.row;
+  equations_ = std::make_unique<NormalEquations<Space>>(terms_, unknowns);
   cholesky_ = std::make_unique<BlockCholesky<Space::kDof>>(equations_->matrix());
 }
 

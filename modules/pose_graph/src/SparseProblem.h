@@ -16,10 +16,9 @@ class SparseProblem : public PoseProblem, private LeastSquares {
  public:
   using Minimizer = SolveSummary (*)(LeastSquares&, const SolverOptions&);
 
-  SparseProblem(const PoseGraph& graph, const std::vector<Pose3>& world_T_base,
-                Minimizer minimizer);
+  SparseProblem(const PoseGraph& graph, const std::vector<Pose3>& poses, Minimizer minimizer);
 
-  void setPoses(const std::vector<Pose3>& world_T_base) override;
+  void setPoses(const std::vector<Pose3>& poses) override;
   std::vector<Pose3> poses() const override;
   void setWeight(EdgeIndex edge, double weight) override;
   double chi2(EdgeIndex edge) const override {
@@ -42,7 +41,7 @@ class SparseProblem : public PoseProblem, private LeastSquares {
   std::vector<PoseTerm<Space>> terms_;
   std::vector<Pose> poses_;
   std::vector<Pose> moved_;  ///< by the last step
-  std::vector<int> row_;     ///< of each node in the equations, -1 for held ones
+  std::vector<int> row_;     ///< of each pose in the equations, -1 for held ones
   std::unique_ptr<NormalEquations<Space>> equations_;  ///< null if the structure has changed
   std::unique_ptr<BlockCholesky<Space::kDof>> cholesky_;
   Eigen::VectorXd step_;

@@ -19,15 +19,15 @@ class NormalEquationsTest : public testing::Test {
     terms = poseTerms<Space>(world.graph);
     for (const Node& node : world.graph.nodes())
       poses.push_back(Space::fromPose3(node.world_T_base));
-    row.assign(poses.size(), -1);  // the first node is held
-    for (size_t i = 1; i < poses.size(); ++i) row[i] = size++;
+    unknowns.row.assign(poses.size(), -1);  // the first node is held
+    for (size_t i = 1; i < poses.size(); ++i) unknowns.row[i] = unknowns.size++;
+    unknowns.first_landmark_row = unknowns.size;
   }
 
   World world;
   std::vector<PoseTerm<Space>> terms;
   std::vector<typename Space::Pose> poses;
-  std::vector<int> row;
-  int size = 0;
+  Unknowns unknowns;
 };
 using Spaces = testing::Types<Se2, Se3>;
 TYPED_TEST_SUITE(NormalEquationsTest, Spaces);
@@ -36,7 +36,7 @@ TYPED_TEST(NormalEquationsTest, GradientMatchesFiniteDifferencesOfTheCost) {
   using Space = TypeParam;
   constexpr int kDof = Space::kDof;
   this->terms[3].weight = 0.25;
-  NormalEquations<Space> equations(this->terms, this->row, this->size);
+  NormalEquations<Space> equations(this->terms, this->unknowns);
   const double cost = equations.linearize(this->poses);
   EXPECT_NEAR(equations.cost(this->poses), cost, 1e-9 * cost);
   constexpr double kStep = 1e-6;
@@ -48,7 +48,7 @@ TYPED_TEST(NormalEquationsTest, GradientMatchesFiniteDifferencesOfTheCost) {
       const double above = equations.cost(moved);
       moved[node] = Space::plus(this->poses[node], -d);
       const double numeric = (above - equations.cost(moved)) / (2 * kStep);
-      const double gradient = equations.gradient()[kDof * this->row[node] + axis];
+      const double gradient = equations.gradient()[kDof * this->unknowns.row[node] + axis];
       EXPECT_NEAR(gradient, numeric, 1e-4 * (1 + equations.gradient().cwiseAbs().maxCoeff()));
     }
 }
@@ -57,20 +57,22 @@ TYPED_TEST(NormalEquationsTest, GradientMatchesFiniteDifferencesOfTheCost) {
 TYPED_TEST(NormalEquationsTest, MatrixIsTheSumOfSquaredJacobians) {
   using Space = TypeParam;
   constexpr int kDof = Space::kDof;
-  NormalEquations<Space> equations(this->terms, this->row, this->size);
+  NormalEquations<Space> equations(this->terms, this->unknowns);
   equations.linearize(this->poses);
-  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(kDof * this->size, kDof * this->size);
+  Eigen::MatrixXd expected =
+      Eigen::MatrixXd::Zero(kDof * this->unknowns.size, kDof * this->unknowns.size);
   for (const auto& term : this->terms) {
     typename Space::Jacobian d_from = Space::Jacobian::Zero(), d_to;
     term.error(this->poses[term.from], this->poses[term.to], &d_from, &d_to);
-    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(kDof, kDof * this->size);
-    if (!term.prior && this->row[term.from] >= 0)
-      J.middleCols(kDof * this->row[term.from], kDof) = d_from;
-    if (this->row[term.to] >= 0) J.middleCols(kDof * this->row[term.to], kDof) = d_to;
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(kDof, kDof * this->unknowns.size);
+    if (!term.isUnary() && this->unknowns.row[term.from] >= 0)
+      J.middleCols(kDof * this->unknowns.row[term.from], kDof) = d_from;
+    if (this->unknowns.row[term.to] >= 0)
+      J.middleCols(kDof * this->unknowns.row[term.to], kDof) = d_to;
     expected += J.transpose() * term.information * J;
   }
   const auto& matrix = equations.matrix();
-  for (int i = 0; i < this->size; ++i)
+  for (int i = 0; i < this->unknowns.size; ++i)
     EXPECT_TRUE(matrix.diagonal[i].isApprox(expected.block(kDof * i, kDof * i, kDof, kDof), 1e-9));
   for (size_t i = 0; i < matrix.pairs.size(); ++i)
     EXPECT_TRUE(matrix.off_diagonal[i].isApprox(
@@ -81,12 +83,12 @@ TYPED_TEST(NormalEquationsTest, MatrixIsTheSumOfSquaredJacobians) {
 TYPED_TEST(NormalEquationsTest, TermsWithoutWeightLeaveTheStructure) {
   using Space = TypeParam;
   const auto pairs = [&] {
-    return NormalEquations<Space>(this->terms, this->row, this->size).matrix().pairs.size();
+    return NormalEquations<Space>(this->terms, this->unknowns).matrix().pairs.size();
   };
   const size_t before = pairs();
   for (auto& term : this->terms)
-    if (!term.prior && this->world.graph.nodes()[term.from].id.robot !=
-                           this->world.graph.nodes()[term.to].id.robot)
+    if (!term.isUnary() && this->world.graph.nodes()[term.from].id.robot !=
+                               this->world.graph.nodes()[term.to].id.robot)
       term.weight = 0;
   EXPECT_LT(pairs(), before);
 }

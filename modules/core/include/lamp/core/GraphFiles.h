@@ -18,8 +18,8 @@ Matrix6d covarianceFromMrpt(const Pose3& pose, const Matrix6d& xyz_ypr);
 Matrix6d covarianceToMrpt(const Pose3& pose, const Matrix6d& tangent);
 
 /** The optimised graph as g2o text with 17 digits: SE2 if the graph is planar, else SE3:QUAT. Ids
- * are dense 32-bit numbers from 0 in node order. Priors and rejected loops are left out; the first
- * node of each component is fixed. */
+ * are dense 32-bit numbers from 0 in node order. Only odometry and loop closures that are not
+ * rejected are written; the first node of each component is fixed. */
 std::string toG2o(const PoseGraph& graph);
 /** The same with the ids that another program gave the nodes, in node order. */
 std::string toG2o(const PoseGraph& graph, const std::vector<uint64_t>& ids);

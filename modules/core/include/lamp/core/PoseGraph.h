@@ -11,10 +11,16 @@
 
 namespace lamp {
 
+/** What an edge measures. `from == to` where it concerns one key node, or one and a landmark. */
 enum class EdgeType {
-  kOdometry,     ///< motion between consecutive key nodes of one robot
-  kPrior,        ///< absolute pose of one key node in the world; `from == to`
-  kLoopClosure,  ///< registration of two keyed scans
+  kOdometry,      ///< motion between consecutive key nodes of one robot
+  kPrior,         ///< absolute pose of one key node in the world
+  kLoopClosure,   ///< registration of two keyed scans, or an operator's word
+  kGravity,       ///< roll and pitch of one key node
+  kPosition,      ///< of a landmark, seen from a key node
+  kBearingRange,  ///< direction of a landmark and distance to it, or either
+  kRange,         ///< distance to a landmark, such as a UWB anchor
+  kRobotRange,    ///< distance between key nodes
 };
 const char* toString(EdgeType type);
 
@@ -30,20 +36,49 @@ struct Node {
   bool planar = false;                     ///< moves in x, y and yaw only
 };
 
+/** A place that robots see or measure distances to: an artifact, a radio anchor. */
+struct Landmark {
+  std::string name;
+  Eigen::Vector3d world_p = Eigen::Vector3d::Zero();  ///< the current estimate
+  bool known = false;   ///< surveyed: `world_p` is no estimate and stays
+  bool placed = false;  ///< `world_p` means something
+};
+
 /** Place of an edge in PoseGraph::edges(); never changes. */
 using EdgeIndex = size_t;
+/** Place of a landmark in PoseGraph::landmarks(); never changes. */
+using LandmarkIndex = size_t;
 
 struct Edge {
   EdgeType type = EdgeType::kOdometry;
   KeyframeId from, to;
-  Pose3 from_T_to = Pose3::Identity();          ///< kPrior: world_T_base
-  Matrix6d information = Matrix6d::Identity();  ///< tangent space at from_T_to
+  /** kPrior: world_T_base. kGravity: the same, of which the yaw does not count. kPosition,
+   * kBearingRange: a translation, from_p_landmark. kRange, kRobotRange: a translation along x by
+   * the distance. */
+  Pose3 from_T_to = Pose3::Identity();
+  /** Tangent space at from_T_to; zero in directions that the edge says nothing of. */
+  Matrix6d information = Matrix6d::Identity();
+  LandmarkIndex landmark = 0;  ///< the other end, if endsAtLandmark()
+  /** Ranges and bearings: where in the frame of `from` (and `to`) they are measured. */
+  Eigen::Vector3d from_p_sensor = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_p_sensor = Eigen::Vector3d::Zero();
   Verdict verdict = Verdict::kInlier;
   double weight = 1.0;  ///< last weight given by the robust back end
   double chi2 = 0.0;    ///< squared Mahalanobis residual at the estimate
   bool pinned = false;  ///< an operator vouches for this loop closure
 
-  bool mayBeRejected() const { return type == EdgeType::kLoopClosure && !pinned; }
+  /** The full relative pose of two key nodes. */
+  bool joinsPoses() const { return type == EdgeType::kOdometry || type == EdgeType::kLoopClosure; }
+  bool endsAtLandmark() const {
+    return type == EdgeType::kPosition || type == EdgeType::kBearingRange ||
+           type == EdgeType::kRange;
+  }
+  bool isLoopClosure() const { return type == EdgeType::kLoopClosure; }
+  /** Loop closures but those that an operator vouches for; landmarks, which may be mistaken for one
+   * another; distances, since radio may have taken a longer way. */
+  bool mayBeRejected() const {
+    return (isLoopClosure() && !pinned) || endsAtLandmark() || type == EdgeType::kRobotRange;
+  }
   bool betweenRobots() const { return from.robot != to.robot; }
   bool active() const { return verdict != Verdict::kOutlier; }
 };
@@ -60,11 +95,17 @@ class PoseGraph {
  public:
   /** \throws std::logic_error if the id is there already. */
   void addNode(const Node& node);
-  /** \throws std::logic_error if an end is missing, or an edge that is no prior joins a node with
-   *  itself; std::invalid_argument if measurement or information is not finite or not PSD. */
+  /** \throws std::logic_error if an end is missing, or is the other where the type needs two key
+   *  nodes; std::invalid_argument if measurement or information is not finite or not PSD. */
   EdgeIndex addEdge(const Edge& edge);
+  /** \throws std::logic_error if the name is there already. */
+  LandmarkIndex addLandmark(const Landmark& landmark);
 
   const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Landmark>& landmarks() const { return landmarks_; }
+  std::vector<Landmark>& landmarks() { return landmarks_; }
+  /** By its name. */
+  std::optional<LandmarkIndex> findLandmark(const std::string& name) const;
   const std::vector<Edge>& edges() const { return edges_; }
   std::vector<Edge>& edges() { return edges_; }
 
@@ -85,13 +126,15 @@ class PoseGraph {
   /** True if every node is planar (and there is one). */
   bool planar() const;
 
-  /** Joined by odometry and by loop closures that are not rejected; priors do not join. Largest
+  /** Joined by odometry and by loop closures that are not rejected; nothing else joins. Largest
    * first, ties by first id. */
   std::vector<Component> components() const;
 
  private:
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
+  std::vector<Landmark> landmarks_;
+  std::unordered_map<std::string, LandmarkIndex> landmark_by_name_;
   std::unordered_map<KeyframeId, size_t> place_;
   std::unordered_map<RobotId, std::vector<KeyframeId>> by_robot_;
 };

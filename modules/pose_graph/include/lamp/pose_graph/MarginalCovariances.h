@@ -33,6 +33,10 @@ class MarginalCovariances : public UncertaintyQuery {
    * relative to its first key node. \throws std::out_of_range. */
   Matrix6d covariance(KeyframeId id) const;
 
+  /** Covariance of `world_p`, relative to the same; zero if nothing moves the landmark.
+   * \throws std::out_of_range. */
+  Eigen::Matrix3d landmarkCovariance(LandmarkIndex landmark) const;
+
  private:
   class Impl;
   template <class Space>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 
 namespace lamp {
 
-/** What the back end thinks of one loop closure. */
+/** What the back end thinks of one loop closure, or other edge that may be rejected. */
 struct LoopVerdict {
   EdgeIndex edge = 0;
   Verdict verdict = Verdict::kInlier;
@@ -29,7 +30,9 @@ struct OptimizationReport {
 
 struct OptimizationResult {
   std::vector<Pose3> world_T_base;  ///< in the order of PoseGraph::nodes()
-  std::vector<LoopVerdict> loops;   ///< one for each loop closure of the graph, in edge order
+  std::vector<std::optional<Eigen::Vector3d>> landmarks;  ///< those that an admitted edge places
+  /** One for each edge of the graph that may be rejected, in their order. */
+  std::vector<LoopVerdict> loops;
   OptimizationReport report;
 };
 
