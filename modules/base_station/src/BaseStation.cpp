@@ -43,7 +43,8 @@ BaseStation::BaseStation(const SlamConfig& config, mrpt::system::CTimeLogger& ti
       stages_(config.stages),
       computation_(config.makeLoopClosureComputation()),
       timer_(timer),
-      scans_(config.registration.preparation) {}
+      scans_(config.registration.preparation),
+      extra_edges_(config.robots, config.beacons) {}
 
 void BaseStation::receive(const KeyframePacket& packet) {
   registerNode(packet);
@@ -54,6 +55,9 @@ void BaseStation::receive(const KeyframePacket& packet) {
 
 void BaseStation::receive(const RobotEnd& end) {
   trailing_scans_[end.robot] = end.passed_scans;
+  const auto& nodes = graph_.robotNodes(end.robot);
+  if (nodes.empty()) return;
+  if (extra_edges_.add(nodes.back(), end.extras, packets_, graph_)) optimized_all_ = false;
 }
 
 std::string BaseStation::apply(const OperatorAction& action, const RobotTable& robots) {
@@ -105,6 +109,7 @@ void BaseStation::registerNode(const KeyframePacket& packet) {
   }
   scans_.add(packet);
   packets_[packet.id] = packet;
+  if (extra_edges_.add(packet.id, packet.extras, packets_, graph_)) optimized_all_ = false;
 }
 
 void BaseStation::propose(KeyframeId id) {

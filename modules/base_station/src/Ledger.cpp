@@ -36,6 +36,7 @@ void Ledger::add(LedgerRow row) {
 }
 
 void Ledger::addVerdictChange(EdgeIndex edge, size_t round, Verdict before, const Edge& after) {
+  if (!by_edge_.count(edge)) return;
   changes_.push_back(
       {round, rows_[by_edge_.at(edge)].loop_id, before, after.verdict, after.weight, after.chi2});
 }

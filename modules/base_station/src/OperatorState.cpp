@@ -146,8 +146,8 @@ std::vector<bool> OperatorState::admitted(const PoseGraph& graph) const {
   std::vector<bool> admitted;
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
     const Edge& edge = graph.edges()[e];
-    const bool ignored =
-        edge.betweenRobots() && (ignored_.count(edge.from.robot) || ignored_.count(edge.to.robot));
+    const bool ignored = (edge.betweenRobots() || edge.endsAtLandmark()) &&
+                         (ignored_.count(edge.from.robot) || ignored_.count(edge.to.robot));
     admitted.push_back(!ignored && !removed_.count(e));
   }
   return admitted;

@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "LandmarkTable.h"
 #include "Summary.h"
 #include "lamp/core/Files.h"
 #include "lamp/core/GraphFiles.h"
@@ -100,6 +101,8 @@ void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CT
     writeTextFile(folder.loops(), base.ledger().loops(base.graph(), result.robots).text());
     writeTextFile(folder.verdicts(), base.ledger().verdicts().text());
     writeTextFile(folder.actions(), toCsv(base.actions()).text());
+    if (!base.graph().landmarks().empty())
+      writeTextFile(folder.artifacts(), landmarkTable(base.graph(), result.robots).text());
     writeKeyframes(folder, result);
   }
   writeMaps(folder, result, timer, progress);
@@ -137,6 +140,10 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
          << " key nodes, " << inliers.within_robots << " loops within robots, "
          << inliers.between_robots << " between): " << folder.mapStem(rank) << ".*\n";
   }
+  if (const MeasurementCounts counts = countMeasurements(base.graph()); counts.edges > 0)
+    text << "beside lidar and odometry: " << counts.edges << " measurements of gravity, "
+         << base.graph().landmarks().size() << " landmarks and distances, " << counts.inliers
+         << " kept\n";
   if (components.size() > 1)
     text << "No trusted loop closure joins these " << components.size()
          << " components: they stay separate maps.\n";

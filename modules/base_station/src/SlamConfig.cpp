@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string kRobotPrefix = "robot.";
+const std::string kBeaconPrefix = "beacon.";
 const std::string kStagePrefix = "lamp::";
 
 const char* const kParametersIntroduction = R"(# Parameters
@@ -183,6 +184,7 @@ SlamConfig::SlamConfig(Ini ini, Faults faults) : ini_(std::move(ini)) {
   readOptions(ini_.find("registration"), registration, faults);
   readOptions(ini_.find("base_station"), base_station, faults);
   readRobots(faults);
+  readBeacons(faults);
   checkArrivals(faults);
   makeStages(faults);
   checkSections(faults);
@@ -205,6 +207,27 @@ void SlamConfig::readRobots(Faults& faults) {
       faults.add(section.where, error.what());
     }
     robots.push_back(std::move(robot));
+  }
+}
+
+/** Each number belongs to one beacon, or robot. */
+void SlamConfig::readBeacons(Faults& faults) {
+  std::set<int> taken;
+  for (const RobotOptions& robot : robots)
+    if (robot.beacon_id >= 0 && !taken.insert(robot.beacon_id).second)
+      faults.add(ini_.find(kRobotPrefix + robot.name)->find("beacon_id")->where,
+                 "[robot." + robot.name + "] beacon_id: another robot has the same");
+  for (const Ini::Section& section : ini_.sections()) {
+    if (section.name.rfind(kBeaconPrefix, 0) != 0) continue;
+    BeaconOptions beacon;
+    beacon.name = section.name.substr(kBeaconPrefix.size());
+    readOptions(&section, beacon, faults);
+    if (beacon.id < 0)
+      faults.add(section.where, "[" + section.name + "] id: is missing");
+    else if (!taken.insert(beacon.id).second)
+      faults.add(section.find("id")->where,
+                 "[" + section.name + "] id: another beacon, or robot, has the same");
+    beacons.push_back(std::move(beacon));
   }
 }
 
@@ -248,7 +271,7 @@ void SlamConfig::checkSections(Faults& faults) const {
       "plugins", "run", "input", "pipeline", "frontend", "registration", "base_station"};
   for (const Ini::Section& section : ini_.sections()) {
     const std::string& name = section.name;
-    const bool known = name.rfind(kRobotPrefix, 0) == 0 ||
+    const bool known = name.rfind(kRobotPrefix, 0) == 0 || name.rfind(kBeaconPrefix, 0) == 0 ||
                        std::find(kSections.begin(), kSections.end(), name) != kSections.end();
     if (known) continue;
     if (name.rfind(kStagePrefix, 0) != 0) {
@@ -293,6 +316,8 @@ std::string SlamConfig::text() const {
                      writeOptions("base_station", copy.base_station);
   for (RobotOptions& robot : copy.robots)
     text += "\n" + writeOptions(kRobotPrefix + robot.name, robot);
+  for (BeaconOptions& beacon : copy.beacons)
+    text += "\n" + writeOptions(kBeaconPrefix + beacon.name, beacon);
 
   std::set<std::string> written;
   const auto add = [&](const std::string& name, Stage& stage) {
@@ -340,7 +365,8 @@ std::string describeParameters() {
   text += table("plugins", PluginOptions{}) + table("run", RunOptions{}) +
           table("input", InputOptions{}) + table("pipeline", PipelineOptions{}) +
           table("frontend", FrontEndOptions{}) + table("registration", RegistrationOptions{}) +
-          table("base_station", BaseStationOptions{}) + table("robot.NAME", RobotOptions{});
+          table("base_station", BaseStationOptions{}) + table("robot.NAME", RobotOptions{}) +
+          table("beacon.NAME", BeaconOptions{});
   for (const StageKind& kind : stageKinds()) {
     text += "## [pipeline] " + std::string(kind.key) + "\n\n";
     for (const std::string& name : stageClasses(kind.base)) {

@@ -63,6 +63,19 @@ Json frameSummary(const RunResult& result, const FrameAgreement& frames) {
           {"joined", frames.joined}};
 }
 
+/** By type: edges beside odometry, priors and loop closures, and how many are kept. */
+Json measurementSummary(const PoseGraph& graph) {
+  Json json = Json::object();
+  for (const Edge& edge : graph.edges()) {
+    if (edge.joinsPoses() || edge.type == EdgeType::kPrior) continue;
+    Json& of_type = json[toString(edge.type)];
+    if (of_type.is_null()) of_type = {{"edges", 0}, {"inliers", 0}};
+    of_type["edges"] = of_type["edges"].get<size_t>() + 1;
+    if (edge.verdict == Verdict::kInlier) of_type["inliers"] = of_type["inliers"].get<size_t>() + 1;
+  }
+  return json;
+}
+
 Json optimizationSummary(const RunResult& result) {
   const BaseStation& base = result.base_station;
   Json json;
@@ -105,6 +118,16 @@ ComponentLoops countLoops(const PoseGraph& graph, const Component& component) {
   return loops;
 }
 
+MeasurementCounts countMeasurements(const PoseGraph& graph) {
+  MeasurementCounts counts;
+  for (const Edge& edge : graph.edges()) {
+    if (edge.joinsPoses() || edge.type == EdgeType::kPrior) continue;
+    ++counts.edges;
+    counts.inliers += edge.verdict == Verdict::kInlier;
+  }
+  return counts;
+}
+
 Json summarize(const RunResult& result) {
   const BaseStation& base = result.base_station;
   const LoopCounts loops = countLoops(base);
@@ -119,6 +142,7 @@ Json summarize(const RunResult& result) {
                    {"attempts", loops.attempts},
                    {"verified", loops.verified},
                    {"inliers", loops.inliers}};
+  json["measurements"] = measurementSummary(base.graph());
   json["optimization"] = optimizationSummary(result);
   json["robots"] = Json::array();
   for (const RobotId robot : result.robots.ids())

@@ -21,6 +21,12 @@ struct ComponentLoops {
 };
 
 LoopCounts countLoops(const BaseStation& base_station);
+/** Edges beside odometry, priors and loop closures. */
+struct MeasurementCounts {
+  size_t edges = 0, inliers = 0;
+};
+MeasurementCounts countMeasurements(const PoseGraph& graph);
+
 ComponentLoops countLoops(const PoseGraph& graph, const Component& component);
 
 /** The content of summary.json. */

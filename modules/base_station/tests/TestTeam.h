@@ -149,7 +149,7 @@ inline RobotDrive drive(const DriveOptions& options) {
       result.truth.push_back({stamp, truth});
     }
   }
-  result.end = {options.robot, passed};
+  result.end = {options.robot, passed, {}};
   return result;
 }
 

@@ -59,6 +59,7 @@ void FrontEndOptions::visit(OptionVisitor& v) {
   scan.visit(v);
   voxel.visit(v);
   motion.visit(v);
+  gravity.visit(v);
 }
 
 FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
@@ -68,10 +69,12 @@ FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
       odometry_(std::move(odometry)),
       prior_(std::move(prior)),
       assembler_(makeAssembler(options)),
-      voxel_filter_(options.voxel) {}
+      voxel_filter_(options.voxel),
+      extras_(options.gravity) {}
 
 std::vector<KeyframePacket> FrontEnd::observe(const InputObservation& observation) {
   odometry_->observe(observation);
+  extras_.observe(observation);
   if (auto scan = assembler_->observe(observation)) enqueue(std::move(*scan));
   return processCoveredScans();
 }
@@ -109,14 +112,17 @@ std::vector<KeyframePacket> FrontEnd::finish() {
       packets.push_back(std::move(*packet));
   }
   waiting_.clear();
+  extras_.advanceTo(std::numeric_limits<double>::infinity(), *odometry_);
   return packets;
 }
 
 RobotEnd FrontEnd::end() {
-  return {robot_, std::move(passed_scans_)};
+  return {robot_, std::move(passed_scans_),
+          last_key_ ? extras_.take(last_key_->pose) : KeyframeExtras()};
 }
 
 std::optional<KeyframePacket> FrontEnd::processScan(const ScanParts& parts) {
+  extras_.advanceTo(parts.stamp, *odometry_);
   const Pose3 odom_T_base = odometry_->poseAt(parts.stamp);
   if (last_scan_pose_) path_since_key_.add(last_scan_pose_->inverse() * odom_T_base);
   last_scan_pose_ = odom_T_base;
@@ -172,6 +178,7 @@ KeyframePacket FrontEnd::makePacket(double stamp, const Pose3& odom_T_base, Scan
   packet.scan = std::make_shared<const Scan>(std::move(scan));
   packet.passed_scans = std::move(passed_scans_);
   passed_scans_.clear();
+  packet.extras = extras_.take(odom_T_base);
   if (last_key_)
     packet.odometry = {last_key_->pose.inverse() * odom_T_base, motionCovariance(stamp)};
   else

@@ -24,6 +24,17 @@ void RobotOptions::visit(OptionVisitor& v) {
   v("lidar_labels", lidar_labels, "sensor labels of the lidars to use; empty for every lidar");
   v("arrivals", arrivals,
     "CSV file with columns stamp and arrival: when this robot's key nodes reach the base station");
+  v("beacon_id", beacon_id, "",
+    "number of the radio beacon on this robot, to which others measure distances; -1 for none",
+    {-1});
+  v("beacon_position", beacon_position, 3, "m",
+    "where the beacon sits in the base frame; empty for its origin");
+}
+
+void BeaconOptions::visit(OptionVisitor& v) {
+  v("id", id, "", "number of the beacon in recorded distances", kNotNegative);
+  v("position", position, 3, "m",
+    "where the beacon stands in the world; empty if it is to be found out");
 }
 
 }  // namespace lamp

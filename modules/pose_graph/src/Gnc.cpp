@@ -86,7 +86,7 @@ class GncRun {
 
   OptimizationResult run() {
     if (!loops_.empty()) solveFromGuess();
-    if (largest(residuals2()) > 1.0) {
+    if (largest(residuals2()) > 1.0 && !trim()) {
       if (options_.gnc_bias_odom) problem_->setPoses(start_.poses);
       graduation_->start(std::max(largest(residuals2()), kLeastStart));
       graduate();
@@ -96,6 +96,25 @@ class GncRun {
   }
 
  private:
+  /** Takes the worst loops out until the others agree.
+   * \return whether so few had to go that no other set of loops can be as large. */
+  bool trim() {
+    stopping_ = "all but a few loops agree";
+    const auto kept = [](double residual2) {
+      return [=](double r2) { return r2 <= std::max(1.0, residual2 / kTrimmedFactor) ? 1.0 : 0.0; };
+    };
+    for (int round = 0; round < kMostTrims; ++round) {
+      const double worst = largest(keptResiduals2());
+      if (worst <= 1.0) return true;
+      weigh(kept(worst), true);
+      if (trimmedShare() > kMostTrimmed) break;
+      note(problem_->solve(inner_));
+    }
+    for (GncLoop& loop : loops_)
+      if (loop.graduated) setWeight(loop, 1.0);
+    return false;
+  }
+
   void graduate() {
     stopping_ = "max_rounds reached";
     for (int round = 1; round < options_.max_rounds; ++round) {
@@ -142,10 +161,24 @@ class GncRun {
       if (graduated_only && !loop.graduated) continue;
       const double weight = weight_of(residual2(loop));
       same = same && weight == loop.weight;
-      loop.weight = weight;
-      problem_->setWeight(loop.edge, weight);
+      setWeight(loop, weight);
     }
     return same;
+  }
+
+  void setWeight(GncLoop& loop, double weight) {
+    loop.weight = weight;
+    problem_->setWeight(loop.edge, weight);
+  }
+
+  /** Of the loops that take part or could, the share of those that were taken out. */
+  double trimmedShare() const {
+    double out = 0, all = 0;
+    for (const GncLoop& loop : loops_) {
+      out += loop.graduated && loop.weight == 0.0;
+      all += loop.graduated || loop.weight > 0.0;
+    }
+    return out / all;
   }
 
   double residual2(const GncLoop& loop) const { return problem_->chi2(loop.edge) / loop.threshold; }
@@ -155,6 +188,14 @@ class GncRun {
     std::vector<double> result;
     for (const GncLoop& loop : loops_)
       if (loop.graduated) result.push_back(residual2(loop));
+    return result;
+  }
+
+  /** Of the graduated loops that take part. */
+  std::vector<double> keptResiduals2() const {
+    std::vector<double> result;
+    for (const GncLoop& loop : loops_)
+      if (loop.graduated && loop.weight > 0) result.push_back(residual2(loop));
     return result;
   }
 
@@ -183,6 +224,9 @@ class GncRun {
     return result;
   }
 
+  static constexpr int kMostTrims = 30;
+  static constexpr double kTrimmedFactor = 4.0;
+  static constexpr double kMostTrimmed = 0.1;
   static constexpr int kMostSettlingRounds = 20;
   /** Odometry alone may agree with all loops where their solution does not. */
   static constexpr double kLeastStart = 2.0;

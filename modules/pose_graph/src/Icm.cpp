@@ -1,12 +1,10 @@
 #include "lamp/pose_graph/Icm.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 
 #include "GrowingClique.h"
-#include "Information.h"
-#include "OdometryChains.h"
+#include "LoopCycles.h"
 #include "lamp/core/ChiSquare.h"
 
 IMPLEMENTS_MRPT_OBJECT(Icm, OutlierRejection, lamp)
@@ -18,28 +16,6 @@ namespace {
 const char* const kUncertainty = "uncertainty";
 const char* const kPerNode = "per_node";
 
-/** A loop closure, turned so that it leads from the earlier chain, or key node, to the later. */
-struct DirectedLoop {
-  EdgeIndex edge;
-  KeyframeId from, to;
-  RelativePose measured;
-};
-
-DirectedLoop directed(EdgeIndex index, const Edge& edge, bool planar) {
-  const Matrix6d covariance = boundedCovariance(edge.information, planar);
-  if (edge.from < edge.to) return {index, edge.from, edge.to, {edge.from_T_to, covariance}};
-  const Matrix6d Ad = adjoint(edge.from_T_to);
-  return {index, edge.to, edge.from, {edge.from_T_to.inverse(), Ad * covariance * Ad.transpose()}};
-}
-
-int nodesBetween(KeyframeId a, KeyframeId b) {
-  return static_cast<int>(std::max(a.index, b.index) - std::min(a.index, b.index));
-}
-
-RelativePose composed(const RelativePose& a, const RelativePose& b) {
-  return {a.a_T_b * b.a_T_b, composeCovariance(a.covariance, b.a_T_b, b.covariance)};
-}
-
 /** Whether cycles close, by the test that the options name. */
 class Consistency {
  public:
@@ -49,13 +25,10 @@ class Consistency {
         threshold_(chiSquareQuantile(options.inlier_probability, planar ? 3 : 6)) {}
 
   bool agree(const DirectedLoop& a, const DirectedLoop& b) const {
-    const RelativePose there = *chains_.between(a.from, b.from);
-    const RelativePose back = *chains_.between(b.to, a.to);
-    const int nodes = nodesBetween(a.from, b.from) + nodesBetween(a.to, b.to);
     if (options_.test == kPerNode)
-      return withinThresholds(
-          a.measured.a_T_b.inverse() * there.a_T_b * b.measured.a_T_b * back.a_T_b, nodes);
-    return closes(a, composed(composed(there, b.measured), back));
+      return withinThresholds(a.measured.a_T_b.inverse() * otherWay(a, b, chains_).a_T_b,
+                              nodesBetween(a.from, b.from) + nodesBetween(a.to, b.to));
+    return cycle(a, b, chains_).distance2() <= threshold_;
   }
 
   /** Only LAMP's thresholds ask odometry: with uncertainties, that is OdometryGate's part. */
@@ -72,11 +45,6 @@ class Consistency {
     const double allowed = std::max(1, nodes);
     return cycle.translation().norm() <= allowed * options_.max_translation_per_node_m &&
            rotationAngle(cycle) <= allowed * options_.max_rotation_per_node_rad;
-  }
-
-  bool closes(const DirectedLoop& a, const RelativePose& other_way) const {
-    const Vector6d error = logSE3(a.measured.a_T_b.inverse() * other_way.a_T_b);
-    return mahalanobis2(error, a.measured.covariance + other_way.covariance) <= threshold_;
   }
 
   const OdometryChains& chains_;

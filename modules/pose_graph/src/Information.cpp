@@ -13,13 +13,6 @@ constexpr double kNone = 1e-9;
 constexpr double kLeastInformation = 1e-6;
 constexpr double kOutOfPlaneVariance = 1e-9;
 
-Eigen::Matrix3d planarBlock(const Matrix6d& m) {
-  Eigen::Matrix3d block;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) block(i, j) = m(kPlanarAxes[i], kPlanarAxes[j]);
-  return block;
-}
-
 template <class Matrix>
 int rank(const Matrix& information) {
   // Metres and radians differ widely.
@@ -36,6 +29,13 @@ Matrix covarianceOf(const Matrix& information) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d planarBlock(const Matrix6d& m) {
+  Eigen::Matrix3d block;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) block(i, j) = m(kPlanarAxes[i], kPlanarAxes[j]);
+  return block;
+}
 
 int informationRank(const Matrix6d& information, bool planar) {
   return planar ? rank(planarBlock(information)) : rank(information);

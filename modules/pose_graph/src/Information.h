@@ -4,6 +4,9 @@
 
 namespace lamp {
 
+/** The part of a matrix that concerns x, y and yaw. */
+Eigen::Matrix3d planarBlock(const Matrix6d& m);
+
 /** Number of directions that an information matrix knows anything of; of [x y yaw] only if planar.
  */
 int informationRank(const Matrix6d& information, bool planar);

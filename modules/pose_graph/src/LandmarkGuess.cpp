@@ -53,7 +53,7 @@ Eigen::Vector3d median(const std::vector<Eigen::Vector3d>& points) {
 /** Where spheres about the antennas meet: differences of `|p - a|² = r²` are linear in p. None if
  * the antennas lie too nearly in one plane (planar: on one line) to tell the sides apart. */
 std::optional<Eigen::Vector3d> multilaterate(const std::vector<Distance>& distances, int axes) {
-  constexpr double kLeastSpread = 0.1;
+  constexpr double kLeastSpread = 0.05;
   if (static_cast<int>(distances.size()) <= axes) return std::nullopt;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double mean = 0;

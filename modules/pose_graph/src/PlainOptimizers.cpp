@@ -65,13 +65,15 @@ OptimizationResult PlainOptimizer::optimize(const PoseGraph& unjudged,
     result.loops.push_back({e, edge.active() ? Verdict::kInlier : Verdict::kOutlier,
                             edge.active() ? 1.0 : 0.0, problem->chi2(e)});
   }
-  result.report = {summary.usable,
-                   summary.termination,
-                   summary.iterations,
-                   1,
-                   summary.initial_cost,
-                   summary.final_cost,
-                   {}};
+  result.report = {
+      summary.usable,
+      summary.termination,
+      summary.iterations,
+      1,
+      summary.initial_cost,
+      summary.final_cost,
+      {},
+  };
   return result;
 }
 

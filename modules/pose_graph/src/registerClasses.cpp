@@ -1,3 +1,4 @@
+#include "lamp/pose_graph/ChanceAgreement.h"
 #include "lamp/pose_graph/Gnc.h"
 #include "lamp/pose_graph/Icm.h"
 #include "lamp/pose_graph/OdometryGate.h"
@@ -9,6 +10,7 @@ namespace lamp {
 void registerAllClasses_lamp_pose_graph() {
   mrpt::rtti::registerClass(CLASS_ID(OutlierRejection));
   mrpt::rtti::registerClass(CLASS_ID(OdometryGate));
+  mrpt::rtti::registerClass(CLASS_ID(ChanceAgreement));
   mrpt::rtti::registerClass(CLASS_ID(Icm));
   mrpt::rtti::registerClass(CLASS_ID(RobotFrames));
   mrpt::rtti::registerClass(CLASS_ID(Optimizer));

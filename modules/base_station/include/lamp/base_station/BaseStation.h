@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lamp/base_station/BaseStationOptions.h"
+#include "lamp/base_station/ExtraEdges.h"
 #include "lamp/base_station/Ledger.h"
 #include "lamp/base_station/OperatorState.h"
 #include "lamp/base_station/SlamConfig.h"
@@ -79,6 +80,7 @@ class BaseStation : public mrpt::system::COutputLogger {
   PreparedScanStore scans_;
   CandidateQueue queue_;
   Ledger ledger_;
+  ExtraEdges extra_edges_;
   OperatorState operator_;
   std::vector<ActionRecord> actions_;
   std::map<KeyframeId, KeyframePacket> packets_;

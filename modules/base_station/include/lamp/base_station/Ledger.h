@@ -38,6 +38,7 @@ class Ledger {
  public:
   /** Adds an attempt; loop_id and attempt are filled in. */
   void add(LedgerRow row);
+  /** Of edges that no attempt has made nothing is kept. */
   void addVerdictChange(EdgeIndex edge, size_t round, Verdict before, const Edge& after);
 
   const std::vector<LedgerRow>& rows() const { return rows_; }

@@ -100,7 +100,8 @@ class SlamConfig {
   FrontEndOptions frontend;
   RegistrationOptions registration;
   BaseStationOptions base_station;
-  std::vector<RobotOptions> robots;  ///< in the order of the ini
+  std::vector<RobotOptions> robots;    ///< in the order of the ini
+  std::vector<BeaconOptions> beacons;  ///< in the order of the ini
   Stages stages;
 
   /** A new odometry source, one for each robot. */
@@ -116,6 +117,7 @@ class SlamConfig {
 
  private:
   void readRobots(Faults& faults);
+  void readBeacons(Faults& faults);
   void checkArrivals(Faults& faults) const;
   void makeStages(Faults& faults);
   void checkSections(Faults& faults) const;

@@ -23,6 +23,7 @@ class RunFolder {
   std::string loops() const { return root_ + "/loops.csv"; }
   std::string verdicts() const { return root_ + "/verdicts.csv"; }
   std::string actions() const { return root_ + "/actions.csv"; }
+  std::string artifacts() const { return root_ + "/artifacts.csv"; }
   std::string graphG2o() const { return root_ + "/graph.g2o"; }
   std::string graphMrpt() const { return root_ + "/graph.graph"; }
   std::string graphIds() const { return root_ + "/graph_ids.csv"; }

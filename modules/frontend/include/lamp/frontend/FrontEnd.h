@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lamp/core/KeyframePacket.h"
+#include "lamp/frontend/ExtrasCollector.h"
 #include "lamp/frontend/MotionModel.h"
 #include "lamp/frontend/OdometrySource.h"
 #include "lamp/frontend/ScanAssembler.h"
@@ -23,6 +24,7 @@ struct FrontEndOptions {
   ScanOptions scan;
   AdaptiveVoxelOptions voxel;
   MotionModelOptions motion;
+  GravityOptions gravity;
 
   void visit(OptionVisitor& v);
 };
@@ -44,7 +46,7 @@ class FrontEnd {
   std::vector<KeyframePacket> advanceTo(double stamp);
   /** Handles what still waits for odometry, and closes the stream. */
   std::vector<KeyframePacket> finish();
-  /** The scans after the last key node; to be called after finish(). */
+  /** What came after the last key node; to be called after finish(). */
   RobotEnd end();
 
   struct Counts {
@@ -75,6 +77,7 @@ class FrontEnd {
   AdaptiveVoxelFilter voxel_filter_;
 
   std::deque<ScanParts> waiting_;
+  ExtrasCollector extras_;
 
   std::optional<StampedPose> last_key_;
   std::optional<Pose3> last_scan_pose_;

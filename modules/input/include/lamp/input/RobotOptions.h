@@ -20,6 +20,18 @@ struct RobotOptions {
   std::string odometry_label;
   std::vector<std::string> lidar_labels;
   std::string arrivals;
+  int beacon_id = -1;
+  std::vector<double> beacon_position;
+
+  void visit(OptionVisitor& v);
+};
+
+/** What the ini's section `[beacon.NAME]` says of a radio beacon that stands somewhere. */
+struct BeaconOptions {
+  std::string name;  ///< NAME of the section; no key of its own
+
+  int id = -1;
+  std::vector<double> position;
 
   void visit(OptionVisitor& v);
 };

@@ -17,7 +17,8 @@ struct OdometryGateOptions {
  * their priors, where both have one; loops across a gap of odometry pass.
  *
  * Odometry may be worse than it says: its covariances are first scaled so that the best tenth of
- * the loops fits it, up to a limit, and never down. */
+ * the loops fits it, up to a limit, and never down. If more loops fit it then than chance explains,
+ * the optimisation is to take it so, too. */
 class OdometryGate : public OutlierRejection {
   DEFINE_MRPT_OBJECT(OdometryGate, lamp)
 
@@ -26,9 +27,12 @@ class OdometryGate : public OutlierRejection {
 
   void visit(OptionVisitor& options) override { options_.visit(options); }
   void reject(const PoseGraph& graph, std::vector<bool>& admitted) override;
+  /** 1 if the loops do not say clearly that odometry is worse than stated. */
+  double odometryScale() const override { return scale_; }
 
  private:
   OdometryGateOptions options_;
+  double scale_ = 1.0;
 };
 
 }  // namespace lamp

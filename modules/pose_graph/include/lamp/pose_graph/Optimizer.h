@@ -26,10 +26,11 @@ struct OptimizationReport {
   double initial_cost = 0;  ///< half the weighted sum of squared residuals
   double final_cost = 0;
   std::vector<FrameAgreement> frames;  ///< of robots without a common start
+  double odometry_scale = 1.0;         ///< by which covariances of odometry were taken larger
 };
 
 struct OptimizationResult {
-  std::vector<Pose3> world_T_base;  ///< in the order of PoseGraph::nodes()
+  std::vector<Pose3> world_T_base;                        ///< in the order of PoseGraph::nodes()
   std::vector<std::optional<Eigen::Vector3d>> landmarks;  ///< those that an admitted edge places
   /** One for each edge of the graph that may be rejected, in their order. */
   std::vector<LoopVerdict> loops;

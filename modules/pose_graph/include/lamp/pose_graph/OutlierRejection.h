@@ -24,6 +24,8 @@ class OutlierRejection : public Stage {
   /** \param admitted one flag for each edge; those of loops that must stay out are cleared. Loops
    *  that are out already are not looked at. */
   virtual void reject(const PoseGraph& graph, std::vector<bool>& admitted) = 0;
+  /** Of the last reject(): by how much covariances of odometry are larger than stated. */
+  virtual double odometryScale() const { return 1.0; }
   /** Of the last reject(). */
   virtual std::vector<FrameAgreement> agreements() const { return {}; }
 };

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/Options.h"
+#include "lamp/input/ExtrasFromObservation.h"
+
+namespace lamp {
+
+struct GravityOptions {
+  double gravity_window_s = 2.0;
+  double gravity_max_turn_rad_s = 0.025;
+  double gravity_max_change_m_s2 = 0.1;
+  double gravity_sigma_deg = 1.0;
+
+  void visit(OptionVisitor& v);
+};
+
+/** Tells gravity's direction from an inertial unit while nothing else accelerates it: it does not
+ * turn, both halves of a window feel the same force, and that force is as strong as gravity. (LAMP
+ * does so where a robot stands still; one that rolls evenly will do.) */
+class GravityDetector {
+ public:
+  explicit GravityDetector(const GravityOptions& options) : options_(options) {}
+
+  /** \param stamp seconds, UTC; readings that do not increase it are ignored.
+   *  \return what points up, at `stamp`, if the window that ends there tells. */
+  std::optional<GravityReading> observe(double stamp, const InertialReading& reading);
+
+ private:
+  struct Sample {
+    double stamp;
+    InertialReading reading;
+  };
+
+  const GravityOptions options_;
+  std::deque<Sample> window_;
+};
+
+}  // namespace lamp
