@@ -1,7 +1,6 @@
 #include "BlockCholesky.h"
 
 #include <cmath>
-#include <unordered_map>
 
 #include "BlockKernels.h"
 
@@ -137,9 +136,9 @@ std::vector<typename BlockCholesky<kSize>::InverseBlock> BlockCholesky<kSize>::i
   // first below the diagonal is the parent.
   const int* const rows = symbolic_.rows().data();
   std::vector<InverseBlock> column;
-  std::unordered_map<int, size_t> at;
+  std::vector<size_t> at(symbolic_.size());
   for (int place = symbolic_.place(row);;) {
-    at.emplace(place, column.size());
+    at[place] = column.size();
     column.push_back({place, Block::Zero()});
     const int parent = symbolic_.columnBegin(place) + 1;
     if (parent == symbolic_.columnEnd(place)) break;

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include "LoopCycles.h"
+#include "LoopNeighbourhoods.h"
 #include "PoseVolume.h"
 #include "lamp/core/ChiSquare.h"
 #include "lamp/pose_graph/InitialGuess.h"
@@ -21,52 +20,6 @@ constexpr double kInside = 0.99;
 /** More partners tell nothing new. */
 constexpr size_t kMostPartners = 30;
 
-/** Loops of the same two chains, by where their ends are, in steps of `nodes`. */
-class Neighbourhoods {
- public:
-  Neighbourhoods(const OdometryChains& chains, int nodes)
-      : chains_(chains), nodes_(static_cast<uint32_t>(nodes)) {}
-
-  void add(const DirectedLoop& loop) { cells_[cell(loop)].push_back(loop); }
-
-  /** Those with both ends near; the nearest ones, if they are many. */
-  std::vector<DirectedLoop> near(const DirectedLoop& loop) const {
-    std::vector<DirectedLoop> result;
-    auto [from_chain, to_chain, from, to] = cell(loop);
-    for (int64_t i = from - 1; i <= from + 1; ++i)
-      for (int64_t j = to - 1; j <= to + 1; ++j) {
-        const auto found = cells_.find({from_chain, to_chain, i, j});
-        if (found == cells_.end()) continue;
-        for (const DirectedLoop& other : found->second)
-          if (other.edge != loop.edge && distance(loop, other) <= static_cast<int>(2 * nodes_) &&
-              std::max(nodesBetween(loop.from, other.from), nodesBetween(loop.to, other.to)) <=
-                  static_cast<int>(nodes_))
-            result.push_back(other);
-      }
-    std::stable_sort(result.begin(), result.end(),
-                     [&](const DirectedLoop& a, const DirectedLoop& b) {
-                       return distance(loop, a) < distance(loop, b);
-                     });
-    if (result.size() > kMostPartners) result.erase(result.begin() + kMostPartners, result.end());
-    return result;
-  }
-
- private:
-  using Cell = std::tuple<int, int, int64_t, int64_t>;
-
-  static int distance(const DirectedLoop& a, const DirectedLoop& b) {
-    return nodesBetween(a.from, b.from) + nodesBetween(a.to, b.to);
-  }
-  Cell cell(const DirectedLoop& loop) const {
-    return {chains_.chain(loop.from), chains_.chain(loop.to), loop.from.index / nodes_,
-            loop.to.index / nodes_};
-  }
-
-  const OdometryChains& chains_;
-  const uint32_t nodes_;
-  std::map<Cell, std::vector<DirectedLoop>> cells_;
-};
-
 /** The chance that what is seen of a loop is seen of a false one. */
 class Chance {
  public:
@@ -79,16 +32,20 @@ class Chance {
     return volume_.chance(odometry.covariance + loop.measured.covariance, threshold_);
   }
 
-  /** min(1, λ)^s */
-  double ofPartners(const DirectedLoop& loop, const std::vector<DirectedLoop>& partners) const {
-    double expected = 0;
+  /** The least k · min(1, λ)^s of the k nearest partners: far ones, of which odometry knows little,
+   * must not hide what the near ones say. \param enough at which the search ends. */
+  double ofPartners(const DirectedLoop& loop, const std::vector<DirectedLoop>& partners,
+                    double enough) const {
+    double expected = 0, least = 1.0;
     int agreeing = 0;
-    for (const DirectedLoop& partner : partners) {
-      const Closure closure = cycle(loop, partner, chains_);
+    for (size_t k = 0; k < partners.size() && least > enough; ++k) {
+      const Closure closure = cycle(loop, partners[k], chains_);
       expected += volume_.chance(closure.covariance, threshold_);
       agreeing += closure.distance2() <= threshold_;
+      least =
+          std::min(least, static_cast<double>(k + 1) * std::pow(std::min(1.0, expected), agreeing));
     }
-    return std::pow(std::min(1.0, expected), agreeing);
+    return least;
   }
 
  private:
@@ -111,7 +68,7 @@ void ChanceAgreementOptions::visit(OptionVisitor& v) {
 void ChanceAgreement::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
   const OdometryChains chains(graph);
   const Chance chance(graph, chains);
-  Neighbourhoods neighbourhoods(chains, options_.partner_nodes);
+  LoopNeighbourhoods neighbourhoods(chains, options_.partner_nodes);
   std::vector<std::pair<DirectedLoop, double>> doubtful;
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
     const Edge& edge = graph.edges()[e];
@@ -123,9 +80,11 @@ void ChanceAgreement::reject(const PoseGraph& graph, std::vector<bool>& admitted
     const double by_odometry = chance.ofOdometry(loop, *odometry);
     if (by_odometry > options_.max_chance) doubtful.emplace_back(loop, by_odometry);
   }
-  for (const auto& [loop, by_odometry] : doubtful)
-    if (by_odometry * chance.ofPartners(loop, neighbourhoods.near(loop)) > options_.max_chance)
-      admitted[loop.edge] = false;
+  for (const auto& [loop, by_odometry] : doubtful) {
+    const double enough = options_.max_chance / by_odometry;
+    const auto partners = neighbourhoods.nearest(loop, kMostPartners);
+    if (chance.ofPartners(loop, partners, enough) > enough) admitted[loop.edge] = false;
+  }
 }
 
 }  // namespace lamp

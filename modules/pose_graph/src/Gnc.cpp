@@ -6,6 +6,7 @@
 #include "GemanMcClure.h"
 #include "GncMemory.h"
 #include "Information.h"
+#include "LeaveOneOut.h"
 #include "PoseProblem.h"
 #include "SolveStart.h"
 #include "TruncatedLeastSquares.h"
@@ -135,9 +136,38 @@ class GncRun {
     weigh(verdict, false);
     for (int round = 0; round < kMostSettlingRounds; ++round) {
       note(problem_->solve(options_.final_solve));
-      if (weigh(verdict, false)) return;
+      if (weigh(verdict, false) && !rejectByLeavingOut()) return;
     }
     stopping_ += ", but the last verdicts still changed";
+  }
+
+  /** Takes out loops without which the truncated cost is lower: to these others have given way. If
+   * there are several, the worst ones, since those make others look bad. \return whether any is. */
+  bool rejectByLeavingOut() {
+    std::vector<bool> taking_part;
+    for (const Edge& edge : graph_.edges()) taking_part.push_back(!edge.mayBeRejected());
+    std::vector<GncLoop*> kept;
+    for (GncLoop& loop : loops_)
+      if (loop.weight > 0.0) kept.push_back(&loop);
+    for (const GncLoop* loop : kept) taking_part[loop->edge] = true;
+
+    const std::vector<Pose3> poses = problem_->poses();
+    const LeaveOneOutBound bound(graph_, taking_part);
+    std::vector<EdgeIndex> suspects;
+    std::vector<GncLoop*> suspect_loops;
+    for (GncLoop* loop : kept) {
+      if (!loop->graduated || bound.distance2(loop->edge, poses) <= loop->threshold) continue;
+      suspects.push_back(loop->edge);
+      suspect_loops.push_back(loop);
+    }
+    if (suspects.empty()) return false;
+    std::vector<double> distances2 = leaveOneOut2(graph_, poses, taking_part, suspects);
+    for (size_t i = 0; i < suspects.size(); ++i) distances2[i] /= suspect_loops[i]->threshold;
+    const double worst = largest(distances2);
+    if (!(worst > 1.0)) return false;
+    for (size_t i = 0; i < suspects.size(); ++i)
+      if (distances2[i] > std::max(1.0, worst / kTrimmedFactor)) setWeight(*suspect_loops[i], 0.0);
+    return true;
   }
 
   void solveFromGuess() {

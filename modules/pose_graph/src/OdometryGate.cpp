@@ -1,6 +1,7 @@
 #include "lamp/pose_graph/OdometryGate.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "Information.h"
 #include "OdometryChains.h"
@@ -14,11 +15,9 @@ namespace lamp {
 
 namespace {
 
-/** A share of true loops that any map can be expected to have. */
-constexpr double kLeastShare = 0.1;
-/** Smaller scales may be chance, and do no harm. */
-constexpr double kLeastMistake = 4.0;
-constexpr double kMuchMore = 3.0;
+constexpr double kNearly = 0.97;
+/** Smaller scales may be chance, and not to know of them does no harm. */
+constexpr double kLeastMistake = 16.0;
 
 /** A loop closure beside what odometry says. */
 struct GatedLoop {
@@ -50,29 +49,43 @@ std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const std::vector<bool
   return loops;
 }
 
-/** How many loops lie as near to odometry as half of all true ones should. */
-double countNear(const std::vector<GatedLoop>& loops, double scale) {
-  return static_cast<double>(std::count_if(loops.begin(), loops.end(), [&](const GatedLoop& loop) {
-    return loop.distance2(scale) <= chiSquareQuantile(0.5, loop.rank);
-  }));
+/** How many loops lie as near to odometry as true ones should, and how many false ones would. */
+struct Near {
+  double loops = 0, by_chance = 0;
+  /** So many are true, at least. */
+  double surplus() const { return loops - by_chance - 3.0 * std::sqrt(by_chance); }
+};
+
+Near countNear(const std::vector<GatedLoop>& loops, double scale, double inlier_probability,
+               const PoseVolume& volume) {
+  Near near;
+  for (const GatedLoop& loop : loops) {
+    const double threshold = chiSquareQuantile(inlier_probability, loop.rank);
+    near.loops += loop.distance2(scale) <= threshold;
+    near.by_chance +=
+        volume.chance(scale * loop.odometry_covariance + loop.loop_covariance, threshold);
+  }
+  return near;
 }
 
-/** The least scale, at least 1, with which a tenth of the loops lies as near as half of all true
- * loops should: where one loop in five is true, those are the better half of them. */
-double odometryScale(const std::vector<GatedLoop>& loops, double max_scale) {
-  const double wanted = kLeastShare * static_cast<double>(loops.size());
-  double scale = 1.0;
-  while (scale < max_scale && countNear(loops, scale) < wanted) scale *= 2.0;
-  return std::min(scale, max_scale);
-}
-
-/** Whether more loops lie that near than false ones would by chance. */
-bool isMeaningful(const std::vector<GatedLoop>& loops, double scale, const PoseVolume& volume) {
-  double by_chance = 0;
-  for (const GatedLoop& loop : loops)
-    by_chance += volume.chance(scale * loop.odometry_covariance + loop.loop_covariance,
-                               chiSquareQuantile(0.5, loop.rank));
-  return countNear(loops, scale) >= kMuchMore * (1.0 + by_chance);
+/** The least scale, at least 1, with which nearly as many loops lie near odometry as with any,
+ * false ones not counted. */
+double fittingScale(const std::vector<GatedLoop>& loops, const OdometryGateOptions& options,
+                    const PoseVolume& volume) {
+  std::vector<std::pair<double, Near>> tried;
+  for (double scale = 1.0;; scale *= 2.0) {
+    scale = std::min(scale, options.max_scale);
+    tried.emplace_back(scale, countNear(loops, scale, options.inlier_probability, volume));
+    const bool all = tried.back().second.loops == static_cast<double>(loops.size());
+    if (all || scale == options.max_scale) break;
+  }
+  double most = 0;
+  for (const auto& [scale, near] : tried) most = std::max(most, near.surplus());
+  if (!(most > 0)) return 1.0;
+  const auto nearly_most = std::find_if(tried.begin(), tried.end(), [&](const auto& candidate) {
+    return candidate.second.surplus() >= kNearly * most;
+  });
+  return nearly_most->first;
 }
 
 }  // namespace
@@ -86,11 +99,11 @@ void OdometryGateOptions::visit(OptionVisitor& v) {
 
 void OdometryGate::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
   const std::vector<GatedLoop> loops = gatedLoops(graph, admitted);
-  const double scale = odometryScale(loops, options_.max_scale);
-  scale_ = 1.0;
-  if (scale >= kLeastMistake &&
-      isMeaningful(loops, scale, PoseVolume(initialGuess(graph), graph.planar())))
-    scale_ = scale;
+  const double scale =
+      loops.empty()
+          ? 1.0
+          : fittingScale(loops, options_, PoseVolume(initialGuess(graph), graph.planar()));
+  scale_ = scale >= kLeastMistake ? scale : 1.0;
   for (const GatedLoop& loop : loops)
     if (loop.distance2(scale) > chiSquareQuantile(options_.inlier_probability, loop.rank))
       admitted[loop.edge] = false;

@@ -51,7 +51,7 @@ void describe(CLI::App& app, Arguments& arguments) {
 
 /** The back end's part of `[pipeline]`; the other keys are lamp-slam's. */
 struct PipelineOptions {
-  std::vector<std::string> outlier_rejection = {"OdometryGate", "RobotFrames"};
+  std::vector<std::string> outlier_rejection = {"OdometryGate", "ChanceAgreement", "RobotFrames"};
   std::string optimizer = "Gnc";
 
   void visit(OptionVisitor& v) {

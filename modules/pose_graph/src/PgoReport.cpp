@@ -77,6 +77,7 @@ Json pgoReport(const G2oGraph& g2o, const OptimizationResult& result, size_t tru
                  {"termination", result.report.termination},
                  {"rounds", result.report.rounds},
                  {"iterations", result.report.iterations},
+                 {"odometry_scale", result.report.odometry_scale},
                  {"cost_before", cost_before},
                  {"cost_after", cost_after}};
   if (true_edges < rows.size()) report["outliers"] = scores(result, true_edges);

@@ -1,6 +1,7 @@
 #include "PoseVolume.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -10,14 +11,25 @@ namespace lamp {
 
 namespace {
 
-/** Of the unit balls in three and six dimensions. */
-const double kLogBall3 = std::log(4.0 / 3.0 * M_PI), kLogBall6 = std::log(M_PI * M_PI * M_PI / 6.0);
-/** Of all rotations, in rotation vectors near the identity. */
-const double kLogAllYaws = std::log(2.0 * M_PI), kLogAllRotations = std::log(8.0 * M_PI * M_PI);
+/** Volumes of the unit balls in three and six dimensions. */
+constexpr double kBall3 = 4.0 / 3.0 * M_PI, kBall6 = M_PI * M_PI * M_PI / 6.0;
+/** Volume of all rotations, in rotation vectors near the identity. */
+constexpr double kAllRotations = 8.0 * M_PI * M_PI;
+
+/** An ellipsoid that leaves the box is cut softly: at so many times the box's own. */
+constexpr double kCut = 3.0;
 
 template <class Matrix>
-double logRootDeterminant(const Matrix& m) {
-  return Matrix(m.llt().matrixL()).diagonal().array().log().sum();
+double determinant(const Matrix& positive) {
+  return std::pow(Matrix(positive.llt().matrixL()).diagonal().prod(), 2);
+}
+
+/** Ratio of the ellipsoids' volumes. \param D that of the box. */
+template <class Matrix>
+double share(const Matrix& C, const Matrix& D) {
+  const Matrix cut = Matrix::Identity() + C * (kCut * D).inverse();
+  return std::min(1.0,
+                  std::sqrt(determinant<Matrix>(C) / (determinant<Matrix>(D) * cut.determinant())));
 }
 
 }  // namespace
@@ -25,17 +37,15 @@ double logRootDeterminant(const Matrix& m) {
 PoseVolume::PoseVolume(const std::vector<Pose3>& world_T_base, bool planar) : planar_(planar) {
   Eigen::AlignedBox3d box;
   for (const Pose3& pose : world_T_base) box.extend(pose.translation());
-  const int axes = planar ? 2 : 3;
-  log_volume_ = planar ? kLogAllYaws : kLogAllRotations;
-  for (int axis = 0; axis < axes; ++axis)
-    log_volume_ += std::log(2.0 * std::max(1.0, box.sizes()[axis]));
+  for (int axis = 0; axis < 3; ++axis) sides_[axis] = 2.0 * std::max(1.0, box.sizes()[axis]);
+  sides_.tail<3>().setConstant(planar ? 2.0 * M_PI : std::cbrt(kAllRotations));
 }
 
 double PoseVolume::chance(const Matrix6d& covariance, double threshold) const {
-  const double log_ellipsoid =
-      planar_ ? kLogBall3 + 1.5 * std::log(threshold) + logRootDeterminant(planarBlock(covariance))
-              : kLogBall6 + 3.0 * std::log(threshold) + logRootDeterminant(covariance);
-  return std::min(1.0, std::exp(log_ellipsoid - log_volume_));
+  const double radius2 = threshold * (planar_ ? std::cbrt(kBall3 * kBall3) : std::cbrt(kBall6));
+  const Matrix6d D = (sides_.cwiseAbs2() / radius2).asDiagonal();
+  if (planar_) return share<Eigen::Matrix3d>(planarBlock(covariance), planarBlock(D));
+  return share<Matrix6d>(covariance, D);
 }
 
 }  // namespace lamp

@@ -177,6 +177,37 @@ TEST(Gnc, GivesTheSameBytesTwice) {
   for (size_t i = 0; i < a.loops.size(); ++i) EXPECT_EQ(a.loops[i].chi2, b.loops[i].chi2);
 }
 
+/** A stretch that was matched with the wrong one: 50 loops that are off by the same motion, beside
+ * 100 true ones over the same stretch. */
+TEST(Gnc, FalseLoopsThatAgreeAreOutvoted) {
+  for (const bool planar : {false, true}) {
+    WorldOptions options;
+    options.planar = planar;
+    options.robots = 1;
+    options.nodes = 180;
+    options.loops = 0;
+    World world = makeWorld(options);
+    Random random(3);
+    const auto addLoop = [&](int i, const Pose3& shift, bool is_true) {
+      const KeyframeId a = keyframe(0, i % 50), b = keyframe(0, 60 + i % 50);
+      const Pose3 a_T_b =
+          world.truth[world.graph.place(a)].inverse() * shift * world.truth[world.graph.place(b)];
+      const Pose3 measured = a_T_b * expSE3(random.tangent(0.05, 0.01));
+      world.graph.addEdge(makeEdge(EdgeType::kLoopClosure, a, b,
+                                   planar ? projectToPlane(measured) : measured,
+                                   informationOf(0.05, 0.01)));
+      world.true_edge.push_back(is_true);
+    };
+    // Within what odometry allows after 60 key nodes.
+    for (int i = 0; i < 50; ++i) addLoop(i, planarPose(1.5, -1.0, 0.05), false);
+    for (int i = 0; i < 100; ++i) addLoop(i, Pose3::Identity(), true);
+    const OptimizationResult result = Gnc().optimize(world.graph);
+    EXPECT_EQ(score(result, world).precision, 1.0);
+    EXPECT_GE(score(result, world).recall, 0.97);
+    EXPECT_LT(meanDistance(result.world_T_base, world.truth), 0.5);
+  }
+}
+
 TEST(Gnc, EmptyGraphAndLoneNode) {
   PoseGraph graph;
   EXPECT_TRUE(Gnc().optimize(graph).world_T_base.empty());

@@ -29,7 +29,8 @@ struct PipelineOptions {
   std::string refiner = "Gicp";
   std::vector<std::string> verifiers = {"GuessDeviation", "OverlapResidual", "FreeSpaceConsistency",
                                         "BothDirections"};
-  std::vector<std::string> outlier_rejection = {"OdometryGate", "RobotFrames"};
+  std::vector<std::string> outlier_rejection = {"OdometryGate", "ChanceAgreement",
+                                                "RobotFrames"};
   std::string optimizer = "Gnc";
   std::vector<std::string> exporters = {"Ply", "Pcd", "OctoMap", "Picture"};
   bool inter_robot_loops = true;

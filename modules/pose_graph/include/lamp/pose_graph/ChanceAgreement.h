@@ -5,8 +5,8 @@
 namespace lamp {
 
 struct ChanceAgreementOptions {
-  double max_chance = 0.01;
-  int partner_nodes = 10;
+  double max_chance = 0.03;
+  int partner_nodes = 20;
 
   void visit(OptionVisitor& v);
 };
@@ -16,11 +16,12 @@ struct ChanceAgreementOptions {
  * Where odometry hardly knows how two key nodes lie, it agrees with nearly any loop closure between
  * them, and so does an optimisation if no other loop contradicts it. For each loop this is
  * computed: the chance p that a false one, its relative pose uniform over the map's extent, lies in
- * the ellipsoid that odometry allows; and for all loops near it (both ends within `partner_nodes`
- * along odometry) the sum λ of the chances that a false one closes the cycle with it. A loop that s
- * of them agree with stays if p · min(1, λ)^s is small enough: if chance does not explain what is
- * seen (the a-contrario test of Desolneux, Moisan, Morel, "From Gestalt Theory to Image Analysis",
- * 2008, to first order). Loops between robots that nothing relates are RobotFrames' part. */
+ * the ellipsoid that odometry allows; and for the k loops next to it (both ends within
+ * `partner_nodes` along odometry) the sum λ of the chances that a false one closes the cycle with
+ * it. A loop that s of them agree with stays if for some k p · k · min(1, λ)^s is small enough: if
+ * chance does not explain what is seen (the a-contrario test of Desolneux, Moisan, Morel, "From
+ * Gestalt Theory to Image Analysis", 2008, to first order). Loops between robots that nothing
+ * relates are RobotFrames' part. */
 class ChanceAgreement : public OutlierRejection {
   DEFINE_MRPT_OBJECT(ChanceAgreement, lamp)
 
