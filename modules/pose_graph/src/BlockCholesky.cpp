@@ -154,6 +154,42 @@ std::vector<typename BlockCholesky<kSize>::InverseBlock> BlockCholesky<kSize>::i
   return column;
 }
 
+// Erisman, Tinney, "On computing certain elements of the inverse of a sparse matrix", CACM 1975:
+// from Lᵀ Z = L⁻¹, the columns of Z from the last to the first. The rows of a column of the factor
+// are all neighbours in it, so what the sums need is there.
+template <int kSize>
+std::vector<typename BlockCholesky<kSize>::Block> BlockCholesky<kSize>::selectedInverse() const {
+  const int* const rows = symbolic_.rows().data();
+  std::vector<Block> inverse(blocks_.size(), Block::Zero()), scaled(blocks_.size());
+  std::vector<int> position(symbolic_.size(), -1);  // by row: its entry in the column at work
+  for (int column = symbolic_.size() - 1; column >= 0; --column) {
+    const int begin = symbolic_.columnBegin(column), end = symbolic_.columnEnd(column);
+    for (int entry = begin + 1; entry < end; ++entry) {
+      position[rows[entry]] = entry;
+      scaled[entry].noalias() = blocks_[entry] * blocks_[begin];
+    }
+    for (int entry = begin + 1; entry < end; ++entry) {
+      const int right = rows[entry];
+      const int diagonal = symbolic_.columnBegin(right);
+      Block sum = inverse[diagonal] * scaled[entry];
+      for (int below = diagonal + 1; below < symbolic_.columnEnd(right); ++below) {
+        const int at = position[rows[below]];
+        if (at < 0) continue;
+        inverse[at].noalias() -= inverse[below] * scaled[entry];
+        sum.noalias() += inverse[below].transpose() * scaled[at];
+      }
+      inverse[entry] -= sum;
+    }
+    Block diagonal = blocks_[begin].transpose() * blocks_[begin];
+    for (int entry = begin + 1; entry < end; ++entry) {
+      diagonal.noalias() -= scaled[entry].transpose() * inverse[entry];
+      position[rows[entry]] = -1;
+    }
+    inverse[begin] = diagonal;
+  }
+  return inverse;
+}
+
 template class BlockCholesky<3>;
 template class BlockCholesky<6>;
 

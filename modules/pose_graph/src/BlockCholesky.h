@@ -36,6 +36,10 @@ class BlockCholesky {
    * the products of two such columns, (L⁻¹)ᵀ L⁻¹. */
   std::vector<InverseBlock> inverseColumn(int row) const;
 
+  /** The inverse's blocks where the factor has blocks, in their order: for each pair of the
+   * structure, and more. */
+  std::vector<Block> selectedInverse() const;
+
   const SymbolicCholesky& symbolic() const { return symbolic_; }
   /** Blocks of the factor as symbolic() places them; those on the diagonal hold the inverse of the
    * factor's lower triangle. */

@@ -146,27 +146,21 @@ class GncRun {
   bool rejectByLeavingOut() {
     std::vector<bool> taking_part;
     for (const Edge& edge : graph_.edges()) taking_part.push_back(!edge.mayBeRejected());
-    std::vector<GncLoop*> kept;
-    for (GncLoop& loop : loops_)
-      if (loop.weight > 0.0) kept.push_back(&loop);
-    for (const GncLoop* loop : kept) taking_part[loop->edge] = true;
-
-    const std::vector<Pose3> poses = problem_->poses();
-    const LeaveOneOutBound bound(graph_, taking_part);
-    std::vector<EdgeIndex> suspects;
-    std::vector<GncLoop*> suspect_loops;
-    for (GncLoop* loop : kept) {
-      if (!loop->graduated || bound.distance2(loop->edge, poses) <= loop->threshold) continue;
-      suspects.push_back(loop->edge);
-      suspect_loops.push_back(loop);
+    std::vector<GncLoop*> judged;
+    std::vector<EdgeIndex> edges;
+    for (GncLoop& loop : loops_) {
+      taking_part[loop.edge] = loop.weight > 0.0;
+      if (loop.weight == 0.0 || !loop.graduated) continue;
+      judged.push_back(&loop);
+      edges.push_back(loop.edge);
     }
-    if (suspects.empty()) return false;
-    std::vector<double> distances2 = leaveOneOut2(graph_, poses, taking_part, suspects);
-    for (size_t i = 0; i < suspects.size(); ++i) distances2[i] /= suspect_loops[i]->threshold;
+    if (judged.empty()) return false;
+    std::vector<double> distances2 = leaveOneOut2(graph_, problem_->poses(), taking_part, edges);
+    for (size_t i = 0; i < judged.size(); ++i) distances2[i] /= judged[i]->threshold;
     const double worst = largest(distances2);
     if (!(worst > 1.0)) return false;
-    for (size_t i = 0; i < suspects.size(); ++i)
-      if (distances2[i] > std::max(1.0, worst / kTrimmedFactor)) setWeight(*suspect_loops[i], 0.0);
+    for (size_t i = 0; i < judged.size(); ++i)
+      if (distances2[i] > std::max(1.0, worst / kTrimmedFactor)) setWeight(*judged[i], 0.0);
     return true;
   }
 

@@ -1,10 +1,7 @@
 #include "LeaveOneOut.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
-#include <unordered_map>
 
 #include "BlockCholesky.h"
 #include "NormalEquations.h"
@@ -12,10 +9,6 @@
 namespace lamp {
 
 namespace {
-
-/** Where a partner's bound is sought. */
-constexpr int kPartnerNodes = 10;
-constexpr size_t kPartners = 2;
 
 template <class Space>
 class LeaveOneOut {
@@ -29,11 +22,12 @@ class LeaveOneOut {
     NormalEquations<Space> equations(terms_, unknowns_);
     equations.linearize(poses_);
     cholesky_ = std::make_unique<BlockCholesky<kDof>>(equations.matrix());
-    regular_ = cholesky_->factorize(equations.matrix(), kLeastShare);
+    if (cholesky_->factorize(equations.matrix(), kLeastShare))
+      inverse_ = cholesky_->selectedInverse();
   }
 
-  double distance2(EdgeIndex edge) {
-    if (!regular_) return 0.0;
+  double distance2(EdgeIndex edge) const {
+    if (inverse_.empty()) return 0.0;
     const PoseTerm<Space>& term = terms_[edge];
     Block d_from = Block::Zero(), d_to;
     const auto error =
@@ -49,45 +43,39 @@ class LeaveOneOut {
   /** So that what no other edge knows has a solution. */
   static constexpr double kLeastShare = 1e-9;
   using Block = typename Space::Jacobian;
-  using Column = std::vector<typename BlockCholesky<kDof>::InverseBlock>;
 
-  /** J H⁻¹ Jᵀ, as the sum of squares of the columns of the inverse factor after J. */
-  Block covariance(const PoseTerm<Space>& term, const Block& d_from, const Block& d_to) {
-    const Column& of_from = column(unknowns_.row[term.from]);
-    const Column& of_to = column(unknowns_.row[term.to]);
-    Block sum = Block::Zero();
-    auto a = of_from.begin();
-    auto b = of_to.begin();
-    while (a != of_from.end() || b != of_to.end()) {
-      const bool take_a = b == of_to.end() || (a != of_from.end() && a->place <= b->place);
-      const bool take_b = a == of_from.end() || (b != of_to.end() && b->place <= a->place);
-      Block Z = Block::Zero();
-      if (take_a) Z.noalias() += a++->block * d_from.transpose();
-      if (take_b) Z.noalias() += b++->block * d_to.transpose();
-      sum.noalias() += Z.transpose() * Z;
-    }
-    return sum;
+  /** S = J H⁻¹ Jᵀ */
+  Block covariance(const PoseTerm<Space>& term, const Block& d_from, const Block& d_to) const {
+    const int from = unknowns_.row[term.from], to = unknowns_.row[term.to];
+    Block S = Block::Zero();
+    if (to >= 0) S += d_to * inverse(to, to) * d_to.transpose();
+    if (from < 0 || term.isUnary()) return S;
+    S += d_from * inverse(from, from) * d_from.transpose();
+    if (to < 0) return S;
+    const Block cross = d_from * inverse(from, to) * d_to.transpose();
+    return S + cross + cross.transpose();
   }
 
-  const Column& column(int row) {
-    const auto [found, is_new] = columns_.try_emplace(row);
-    if (is_new && row >= 0) found->second = cholesky_->inverseColumn(row);
-    return found->second;
+  /** Of two rows that a term joins. */
+  Block inverse(int row, int column) const {
+    const SymbolicCholesky& symbolic = cholesky_->symbolic();
+    const int i = symbolic.place(row), j = symbolic.place(column);
+    if (i >= j) return inverse_[symbolic.entry(i, j)];
+    return inverse_[symbolic.entry(j, i)].transpose();
   }
 
   std::vector<PoseTerm<Space>> terms_;
   const Unknowns unknowns_;
   std::vector<typename Space::Pose> poses_;
   std::unique_ptr<BlockCholesky<kDof>> cholesky_;
-  bool regular_ = false;
-  std::unordered_map<int, Column> columns_;  ///< of rows that were asked for
+  std::vector<Block> inverse_;  ///< BlockCholesky::selectedInverse(); empty if there is none
 };
 
 template <class Space>
 std::vector<double> distances2(const PoseGraph& graph, const std::vector<Pose3>& poses,
                                const std::vector<bool>& taking_part,
                                const std::vector<EdgeIndex>& edges) {
-  LeaveOneOut<Space> leave_one_out(graph, poses, taking_part);
+  const LeaveOneOut<Space> leave_one_out(graph, poses, taking_part);
   std::vector<double> result;
   for (const EdgeIndex edge : edges) result.push_back(leave_one_out.distance2(edge));
   return result;
@@ -100,33 +88,6 @@ std::vector<double> leaveOneOut2(const PoseGraph& graph, const std::vector<Pose3
                                  const std::vector<EdgeIndex>& edges) {
   return graph.planar() ? distances2<Se2>(graph, poses, taking_part, edges)
                         : distances2<Se3>(graph, poses, taking_part, edges);
-}
-
-LeaveOneOutBound::LeaveOneOutBound(const PoseGraph& graph, const std::vector<bool>& taking_part)
-    : graph_(graph), chains_(graph), neighbourhoods_(chains_, kPartnerNodes) {
-  for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
-    if (graph.edges()[e].isLoopClosure() && taking_part[e])
-      neighbourhoods_.add(directed(e, graph.edges()[e], graph.planar()));
-}
-
-double LeaveOneOutBound::distance2(EdgeIndex index, const std::vector<Pose3>& poses) const {
-  const Edge& edge = graph_.edges()[index];
-  double bound = std::numeric_limits<double>::infinity();
-  if (!edge.isLoopClosure()) return bound;
-  const DirectedLoop loop = directed(index, edge, graph_.planar());
-  const Vector6d error =
-      logSE3(loop.measured.a_T_b.inverse() * poses[graph_.place(loop.from)].inverse() *
-             poses[graph_.place(loop.to)]);
-  // With S₋ of the others: r = Ω⁻¹ (Ω⁻¹ + S₋)⁻¹ e, so that eᵀ (Ω⁻¹ + S₋)⁻¹ e = rᵀ Ω r + (Ω r)ᵀ S₋ Ω
-  // r.
-  const Vector6d force = loop.measured.covariance.llt().solve(error);
-  const auto consider = [&](const RelativePose& others) {
-    bound = std::min(bound, error.dot(force) + force.dot(others.covariance * force));
-  };
-  if (const auto odometry = chains_.between(loop.from, loop.to)) consider(*odometry);
-  for (const DirectedLoop& partner : neighbourhoods_.nearest(loop, kPartners))
-    consider(otherWay(loop, partner, chains_));
-  return bound;
 }
 
 }  // namespace lamp

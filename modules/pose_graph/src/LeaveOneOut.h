@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "LoopNeighbourhoods.h"
+#include "lamp/core/PoseGraph.h"
 
 namespace lamp {
 
@@ -17,21 +17,5 @@ namespace lamp {
 std::vector<double> leaveOneOut2(const PoseGraph& graph, const std::vector<Pose3>& poses,
                                  const std::vector<bool>& taking_part,
                                  const std::vector<EdgeIndex>& edges);
-
-/** Upper bounds of the same for loop closures, at little cost: what all others say is at least as
- * sure as what odometry says, or odometry and the nearest other loop. */
-class LeaveOneOutBound {
- public:
-  /** The graph must outlive it. */
-  LeaveOneOutBound(const PoseGraph& graph, const std::vector<bool>& taking_part);
-
-  /** Infinite where nothing so simple is known, and for edges of other types. */
-  double distance2(EdgeIndex edge, const std::vector<Pose3>& poses) const;
-
- private:
-  const PoseGraph& graph_;
-  const OdometryChains chains_;
-  LoopNeighbourhoods neighbourhoods_;
-};
 
 }  // namespace lamp

@@ -102,4 +102,9 @@ void SymbolicCholesky::findTargets(const std::vector<BlockPair>& pairs) {
   }
 }
 
+int SymbolicCholesky::entry(int row, int column) const {
+  const auto begin = rows_.begin() + columnBegin(column), end = rows_.begin() + columnEnd(column);
+  return static_cast<int>(std::lower_bound(begin, end, row) - rows_.begin());
+}
+
 }  // namespace lamp

@@ -27,6 +27,8 @@ class SymbolicCholesky {
   /** Entries of a column of the factor in rows(): the diagonal, then downwards. */
   int columnBegin(int column) const { return column_begin_[column]; }
   int columnEnd(int column) const { return column_begin_[column + 1]; }
+  /** Of a row in a column, both by place, the row below or on the diagonal; it must be there. */
+  int entry(int row, int column) const;
   /** Places of the rows of all blocks of the factor, column by column. */
   const std::vector<int>& rows() const { return rows_; }
 

@@ -78,6 +78,33 @@ TEST(BlockCholesky, SolvesAsADenseFactorisationDoes) {
 }
 
 template <int kSize>
+void expectSelectedInverse() {
+  Random random(4);
+  for (const int size : {1, 2, 40}) {
+    const BlockMatrix<kSize> matrix = randomMatrix<kSize>(random, size, size);
+    BlockCholesky<kSize> cholesky(matrix);
+    ASSERT_TRUE(cholesky.factorize(matrix, 0));
+    const Eigen::MatrixXd inverse = dense(matrix).inverse();
+    const auto selected = cholesky.selectedInverse();
+    const SymbolicCholesky& symbolic = cholesky.symbolic();
+    const auto expectBlock = [&](int row, int column) {
+      const int i = symbolic.place(row), j = symbolic.place(column);
+      const auto& block = selected[symbolic.entry(std::max(i, j), std::min(i, j))];
+      const Eigen::MatrixXd expected = inverse.block<kSize, kSize>(kSize * (i >= j ? row : column),
+                                                                   kSize * (i >= j ? column : row));
+      EXPECT_LT((block - expected).norm(), 1e-12) << row << " " << column;
+    };
+    for (int row = 0; row < size; ++row) expectBlock(row, row);
+    for (const BlockPair pair : matrix.pairs) expectBlock(pair.row, pair.column);
+  }
+}
+
+TEST(BlockCholesky, SelectedInverseIsThatOfTheDenseMatrix) {
+  expectSelectedInverse<3>();
+  expectSelectedInverse<6>();
+}
+
+template <int kSize>
 void expectInverseColumns() {
   Random random(3);
   const BlockMatrix<kSize> matrix = randomMatrix<kSize>(random, 30, 20);

@@ -1,0 +1,63 @@
+#include "LeaveOneOut.h"
+
+#include <gtest/gtest.h>
+
+#include "TestGraphs.h"
+#include "lamp/core/MeasurementEdges.h"
+#include "lamp/pose_graph/PlainOptimizers.h"
+
+namespace lamp {
+namespace {
+
+/** By so much a solve without the edge is better. */
+TEST(LeaveOneOut, IsWhatTheCostFallsByWithoutTheEdge) {
+  for (const bool planar : {false, true}) {
+    WorldOptions options;
+    options.planar = planar;
+    options.loops = 20;
+    World world = makeWorld(options);
+    world.graph.addLandmark({"lamp"});
+    for (const int i : {3, 11, 25, 40}) {
+      const KeyframeId id = keyframe(0, i);
+      Eigen::Vector3d seen =
+          world.truth[world.graph.place(id)].inverse() * Eigen::Vector3d(4, 5, 0);
+      if (planar) seen.z() = 0;
+      seen.x() += 0.1 * (i % 3);
+      world.graph.addEdge(positionEdge(id, 0, seen, 0.04 * Eigen::Matrix3d::Identity()));
+    }
+    const OptimizationResult all = Lm().optimize(world.graph);
+    std::vector<Pose3> poses = all.world_T_base;
+    poses.emplace_back(Eigen::Translation3d(*all.landmarks[0]));
+    const std::vector<bool> everything(world.graph.edges().size(), true);
+    std::vector<EdgeIndex> edges;
+    for (const LoopVerdict& verdict : all.loops) edges.push_back(verdict.edge);
+    const std::vector<double> distances2 = leaveOneOut2(world.graph, poses, everything, edges);
+    for (size_t i = 0; i < edges.size(); ++i) {
+      std::vector<bool> others = everything;
+      others[edges[i]] = false;
+      const OptimizationResult without = Lm().optimize(world.graph, others);
+      const double fall = 2 * (all.report.final_cost - without.report.final_cost);
+      EXPECT_NEAR(distances2[i], fall, 0.03 * fall + 0.01)
+          << toString(world.graph.edges()[edges[i]].type) << " " << edges[i];
+      EXPECT_GE(distances2[i], all.loops[i].chi2 - 1e-9) << "the others can only give way";
+    }
+  }
+}
+
+/** The only loop of a graph is contradicted by nothing. */
+TEST(LeaveOneOut, AnEdgeThatNothingChecksHasNoDistance) {
+  WorldOptions options;
+  options.priors = false;
+  options.loops = 0;
+  World world = makeWorld(options);
+  world.graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, 3), keyframe(1, 5),
+                               planarPose(1, 2, 3), informationOf(0.1, 0.1)));
+  const OptimizationResult result = Lm().optimize(world.graph);
+  const std::vector<bool> everything(world.graph.edges().size(), true);
+  const auto distances2 =
+      leaveOneOut2(world.graph, result.world_T_base, everything, {world.graph.edges().size() - 1});
+  EXPECT_NEAR(distances2[0], 0.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace lamp
