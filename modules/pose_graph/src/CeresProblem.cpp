@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "FinitePoses.h"
+#include "SparseProblem.h"
 #include "SquareRoot.h"
 #include "Unknowns.h"
 
@@ -211,6 +212,13 @@ template <class Space>
 double CeresProblem<Space>::chi2(EdgeIndex edge) const {
   const PoseTerm<Space>& term = terms_[edge];
   return term.chi2(Space::load(blocks_[term.from].data()), Space::load(blocks_[term.to].data()));
+}
+
+template <class Space>
+std::vector<double> CeresProblem<Space>::leaveOneOut2(const std::vector<EdgeIndex>& edges) {
+  SparseProblem<Space> twin(graph_, poses(), minimizeGaussNewton);
+  for (EdgeIndex e = 0; e < terms_.size(); ++e) twin.setWeight(e, terms_[e].weight);
+  return twin.leaveOneOut2(edges);
 }
 
 template <class Space>

@@ -7,7 +7,6 @@
 #include "LoopNeighbourhoods.h"
 #include "PoseVolume.h"
 #include "lamp/core/ChiSquare.h"
-#include "lamp/pose_graph/InitialGuess.h"
 
 IMPLEMENTS_MRPT_OBJECT(ChanceAgreement, OutlierRejection, lamp)
 
@@ -25,7 +24,7 @@ class Chance {
  public:
   Chance(const PoseGraph& graph, const OdometryChains& chains)
       : chains_(chains),
-        volume_(initialGuess(graph), graph.planar()),
+        volume_(graph, chains),
         threshold_(chiSquareQuantile(kInside, graph.planar() ? 3 : 6)) {}
 
   double ofOdometry(const DirectedLoop& loop, const RelativePose& odometry) const {

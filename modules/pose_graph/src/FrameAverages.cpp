@@ -20,6 +20,8 @@ constexpr double kInlierProbability = 0.9999;
 constexpr size_t kMostStarts = 200;
 constexpr double kMuStep = 1.6;
 constexpr int kMostRounds = 100;
+/** m² and rad²: no loop closure after a drive knows the frames better than that. */
+constexpr double kSurePrior = 1e-3;
 
 /** What one loop closure says of a frame. */
 struct Measurement {
@@ -127,6 +129,13 @@ FrameAverage average(int a, int b, const std::vector<Measurement>& measurements)
       a, b, {pose, information.inverse()}, measurements.size(), countAgreeing(measurements, pose)};
 }
 
+bool surelyRelated(const OdometryChains& chains, int a, int b) {
+  const auto surely = [&](int chain) {
+    return chains.hasPrior(chain) && chains.prior(chain).covariance.trace() < kSurePrior;
+  };
+  return surely(a) && surely(b);
+}
+
 }  // namespace
 
 std::vector<FrameAverage> frameAverages(const PoseGraph& graph, const OdometryChains& chains,
@@ -137,7 +146,8 @@ std::vector<FrameAverage> frameAverages(const PoseGraph& graph, const OdometryCh
     const Edge& edge = graph.edges()[e];
     if (edge.type != EdgeType::kLoopClosure || !admitted[e]) continue;
     const int from = chains.chain(edge.from), to = chains.chain(edge.to);
-    if (from != to) by_pair[std::minmax(from, to)].push_back(measurement(chains, edge, planar));
+    if (from != to && !surelyRelated(chains, from, to))
+      by_pair[std::minmax(from, to)].push_back(measurement(chains, edge, planar));
   }
   std::vector<FrameAverage> averages;
   for (const auto& [pair, measurements] : by_pair)

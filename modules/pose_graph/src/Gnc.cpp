@@ -6,7 +6,6 @@
 #include "GemanMcClure.h"
 #include "GncMemory.h"
 #include "Information.h"
-#include "LeaveOneOut.h"
 #include "PoseProblem.h"
 #include "SolveStart.h"
 #include "TruncatedLeastSquares.h"
@@ -76,8 +75,11 @@ class GncRun {
         problem_(makePoseProblem(options.solver, graph, start_.poses)),
         graduation_(makeGraduation(options.loss)),
         loops_(gncLoops(graph, start_.admitted, options.inlier_probability)),
-        inner_(options.final_solve) {
-    inner_.max_iterations = options.inner_iterations;
+        full_(options.final_solve) {
+    // The next update goes on where this one stops.
+    if (memory) full_.function_tolerance = std::max(full_.function_tolerance, kUpdateTolerance);
+    inner_ = first_ = full_;
+    inner_.max_iterations = first_.max_iterations = options.inner_iterations;
     inner_.function_tolerance = std::max(inner_.function_tolerance, kInnerTolerance);
     if (memory) keepVerdicts(*memory, loops_);
     for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
@@ -86,7 +88,7 @@ class GncRun {
   }
 
   OptimizationResult run() {
-    if (!loops_.empty()) solveFromGuess();
+    if (!loops_.empty()) solveFromGuess(first_);
     if (largest(residuals2()) > 1.0 && !trim()) {
       if (options_.gnc_bias_odom) problem_->setPoses(start_.poses);
       graduation_->start(std::max(largest(residuals2()), kLeastStart));
@@ -109,7 +111,7 @@ class GncRun {
       if (worst <= 1.0) return true;
       weigh(kept(worst), true);
       if (trimmedShare() > kMostTrimmed) break;
-      note(problem_->solve(inner_));
+      solve(inner_);
     }
     for (GncLoop& loop : loops_)
       if (loop.graduated) setWeight(loop, 1.0);
@@ -125,7 +127,7 @@ class GncRun {
         stopping_ = "no loop left in doubt";
         return;
       }
-      solveFromGuess();
+      solveFromGuess(inner_);
       graduation_->sharpen(options_.mu_step);
     }
   }
@@ -135,7 +137,7 @@ class GncRun {
     const auto verdict = [](double residual2) { return residual2 <= 1.0 ? 1.0 : 0.0; };
     weigh(verdict, false);
     for (int round = 0; round < kMostSettlingRounds; ++round) {
-      note(problem_->solve(options_.final_solve));
+      if (!solved_) solve(full_);
       if (weigh(verdict, false) && !rejectByLeavingOut()) return;
     }
     stopping_ += ", but the last verdicts still changed";
@@ -144,18 +146,15 @@ class GncRun {
   /** Takes out loops without which the truncated cost is lower: to these others have given way. If
    * there are several, the worst ones, since those make others look bad. \return whether any is. */
   bool rejectByLeavingOut() {
-    std::vector<bool> taking_part;
-    for (const Edge& edge : graph_.edges()) taking_part.push_back(!edge.mayBeRejected());
     std::vector<GncLoop*> judged;
     std::vector<EdgeIndex> edges;
     for (GncLoop& loop : loops_) {
-      taking_part[loop.edge] = loop.weight > 0.0;
       if (loop.weight == 0.0 || !loop.graduated) continue;
       judged.push_back(&loop);
       edges.push_back(loop.edge);
     }
     if (judged.empty()) return false;
-    std::vector<double> distances2 = leaveOneOut2(graph_, problem_->poses(), taking_part, edges);
+    std::vector<double> distances2 = problem_->leaveOneOut2(edges);
     for (size_t i = 0; i < judged.size(); ++i) distances2[i] /= judged[i]->threshold;
     const double worst = largest(distances2);
     if (!(worst > 1.0)) return false;
@@ -164,15 +163,17 @@ class GncRun {
     return true;
   }
 
-  void solveFromGuess() {
+  void solveFromGuess(const SolverOptions& options) {
     problem_->setPoses(start_.poses);
-    note(problem_->solve(inner_));
+    solve(options);
   }
 
-  void note(const SolveSummary& summary) {
-    last_ = summary;
-    if (rounds_ == 0) initial_cost_ = summary.initial_cost;
-    iterations_ += summary.iterations;
+  void solve(const SolverOptions& options) {
+    last_ = problem_->solve(options);
+    solved_ = options.function_tolerance <= full_.function_tolerance &&
+              last_.iterations < options.max_iterations;
+    if (rounds_ == 0) initial_cost_ = last_.initial_cost;
+    iterations_ += last_.iterations;
     ++rounds_;
   }
 
@@ -191,6 +192,7 @@ class GncRun {
   }
 
   void setWeight(GncLoop& loop, double weight) {
+    solved_ = solved_ && weight == loop.weight;
     loop.weight = weight;
     problem_->setWeight(loop.edge, weight);
   }
@@ -256,6 +258,7 @@ class GncRun {
   static constexpr double kLeastStart = 2.0;
   /** Weights that change by a factor in each round do not need the last digits. */
   static constexpr double kInnerTolerance = 1e-3;
+  static constexpr double kUpdateTolerance = 1e-6;
 
   const PoseGraph& graph_;
   const GncOptions& options_;
@@ -263,9 +266,12 @@ class GncRun {
   std::unique_ptr<PoseProblem> problem_;
   std::unique_ptr<Graduation> graduation_;
   std::vector<GncLoop> loops_;
-  SolverOptions inner_;
+  SolverOptions full_;
+  SolverOptions inner_;  ///< of solves after which weights change
+  SolverOptions first_;  ///< of the first, after which they may not
   std::string stopping_ = "all loops agree";
   SolveSummary last_;
+  bool solved_ = false;  ///< to the end, with the weights as they are
   int rounds_ = 0;
   int iterations_ = 0;
   double initial_cost_ = 0;

@@ -1,93 +1,104 @@
 #include "LeaveOneOut.h"
 
 #include <Eigen/LU>
-#include <algorithm>
-
-#include "BlockCholesky.h"
-#include "NormalEquations.h"
+#include <unordered_map>
 
 namespace lamp {
 
 namespace {
 
-template <class Space>
-class LeaveOneOut {
+/** Blocks of the inverse of the normal equations' matrix, for rows that terms join. */
+template <int kDof>
+class InverseBlocks {
  public:
-  LeaveOneOut(const PoseGraph& graph, const std::vector<Pose3>& poses,
-              const std::vector<bool>& taking_part)
-      : terms_(poseTerms<Space>(graph)),
-        unknowns_(findUnknowns(graph, {taking_part.begin(), taking_part.end()})) {
-    for (size_t e = 0; e < terms_.size(); ++e) terms_[e].weight = taking_part[e] ? 1.0 : 0.0;
-    for (const Pose3& pose : poses) poses_.push_back(Space::fromPose3(pose));
-    NormalEquations<Space> equations(terms_, unknowns_);
-    equations.linearize(poses_);
-    cholesky_ = std::make_unique<BlockCholesky<kDof>>(equations.matrix());
-    if (cholesky_->factorize(equations.matrix(), kLeastShare))
-      inverse_ = cholesky_->selectedInverse();
+  using Block = typename BlockMatrix<kDof>::Block;
+
+  /** \param few whether so few blocks will be asked for that their columns cost less than all. */
+  InverseBlocks(const BlockCholesky<kDof>& cholesky, bool few) : cholesky_(cholesky) {
+    if (!few) selected_ = cholesky.selectedInverse();
   }
 
-  double distance2(EdgeIndex edge) const {
-    if (inverse_.empty()) return 0.0;
-    const PoseTerm<Space>& term = terms_[edge];
-    Block d_from = Block::Zero(), d_to;
-    const auto error =
-        term.error(poses_[term.from], poses_[term.to], term.isUnary() ? nullptr : &d_from, &d_to);
-    // (Ω⁻¹ - S)⁻¹ = Ω (I - S Ω)⁻¹, which a singular Ω does not harm.
-    const Block S = covariance(term, d_from, d_to);
-    const Block redundancy = (1.0 + kLeastShare) * Block::Identity() - S * term.information;
-    return error.dot(term.information * redundancy.partialPivLu().solve(error));
+  Block operator()(int row, int column) {
+    if (selected_.empty()) return product(columnOf(row), columnOf(column));
+    const SymbolicCholesky& symbolic = cholesky_.symbolic();
+    const int i = symbolic.place(row), j = symbolic.place(column);
+    if (i >= j) return selected_[symbolic.entry(i, j)];
+    return selected_[symbolic.entry(j, i)].transpose();
   }
 
  private:
-  static constexpr int kDof = Space::kDof;
-  /** So that what no other edge knows has a solution. */
-  static constexpr double kLeastShare = 1e-9;
-  using Block = typename Space::Jacobian;
+  using Column = std::vector<typename BlockCholesky<kDof>::InverseBlock>;
 
-  /** S = J H⁻¹ Jᵀ */
-  Block covariance(const PoseTerm<Space>& term, const Block& d_from, const Block& d_to) const {
-    const int from = unknowns_.row[term.from], to = unknowns_.row[term.to];
-    Block S = Block::Zero();
-    if (to >= 0) S += d_to * inverse(to, to) * d_to.transpose();
-    if (from < 0 || term.isUnary()) return S;
-    S += d_from * inverse(from, from) * d_from.transpose();
-    if (to < 0) return S;
-    const Block cross = d_from * inverse(from, to) * d_to.transpose();
-    return S + cross + cross.transpose();
+  const Column& columnOf(int row) {
+    const auto [found, is_new] = columns_.try_emplace(row);
+    if (is_new) found->second = cholesky_.inverseColumn(row);
+    return found->second;
   }
 
-  /** Of two rows that a term joins. */
-  Block inverse(int row, int column) const {
-    const SymbolicCholesky& symbolic = cholesky_->symbolic();
-    const int i = symbolic.place(row), j = symbolic.place(column);
-    if (i >= j) return inverse_[symbolic.entry(i, j)];
-    return inverse_[symbolic.entry(j, i)].transpose();
+  static Block product(const Column& a, const Column& b) {
+    Block sum = Block::Zero();
+    for (auto x = a.begin(), y = b.begin(); x != a.end() && y != b.end();) {
+      if (x->place == y->place) sum.noalias() += x->block.transpose() * y->block;
+      const int place = x->place;
+      if (place <= y->place) ++x;
+      if (y->place <= place) ++y;
+    }
+    return sum;
   }
 
-  std::vector<PoseTerm<Space>> terms_;
-  const Unknowns unknowns_;
-  std::vector<typename Space::Pose> poses_;
-  std::unique_ptr<BlockCholesky<kDof>> cholesky_;
-  std::vector<Block> inverse_;  ///< BlockCholesky::selectedInverse(); empty if there is none
+  const BlockCholesky<kDof>& cholesky_;
+  std::vector<Block> selected_;
+  std::unordered_map<int, Column> columns_;
 };
 
+/** S = J H⁻¹ Jᵀ of a term. */
 template <class Space>
-std::vector<double> distances2(const PoseGraph& graph, const std::vector<Pose3>& poses,
-                               const std::vector<bool>& taking_part,
-                               const std::vector<EdgeIndex>& edges) {
-  const LeaveOneOut<Space> leave_one_out(graph, poses, taking_part);
-  std::vector<double> result;
-  for (const EdgeIndex edge : edges) result.push_back(leave_one_out.distance2(edge));
-  return result;
+typename Space::Jacobian covariance(InverseBlocks<Space::kDof>& inverse, int from, int to,
+                                    const typename Space::Jacobian& d_from,
+                                    const typename Space::Jacobian& d_to) {
+  using Block = typename Space::Jacobian;
+  Block S = Block::Zero();
+  if (to >= 0) S += d_to * inverse(to, to) * d_to.transpose();
+  if (from >= 0) S += d_from * inverse(from, from) * d_from.transpose();
+  if (to < 0 || from < 0) return S;
+  const Block cross = d_from * inverse(from, to) * d_to.transpose();
+  return S + cross + cross.transpose();
 }
 
 }  // namespace
 
-std::vector<double> leaveOneOut2(const PoseGraph& graph, const std::vector<Pose3>& poses,
-                                 const std::vector<bool>& taking_part,
+template <class Space>
+std::vector<double> leaveOneOut2(const std::vector<PoseTerm<Space>>& terms,
+                                 const std::vector<typename Space::Pose>& poses,
+                                 const std::vector<int>& row,
+                                 const BlockCholesky<Space::kDof>& cholesky,
                                  const std::vector<EdgeIndex>& edges) {
-  return graph.planar() ? distances2<Se2>(graph, poses, taking_part, edges)
-                        : distances2<Se3>(graph, poses, taking_part, edges);
+  using Block = typename Space::Jacobian;
+  constexpr size_t kFew = 20;
+  constexpr double kLeastRedundancy = 1e-9;
+  InverseBlocks<Space::kDof> inverse(cholesky, edges.size() <= kFew);
+  std::vector<double> distances2;
+  for (const EdgeIndex edge : edges) {
+    const PoseTerm<Space>& term = terms[edge];
+    Block d_from = Block::Zero(), d_to;
+    const auto error =
+        term.error(poses[term.from], poses[term.to], term.isUnary() ? nullptr : &d_from, &d_to);
+    const Block S = covariance<Space>(inverse, term.isUnary() ? -1 : row[term.from], row[term.to],
+                                      d_from, d_to);
+    // (Ω⁻¹ - S)⁻¹ = Ω (I - S Ω)⁻¹, which a singular Ω does not harm.
+    const Block redundancy = (1.0 + kLeastRedundancy) * Block::Identity() - S * term.information;
+    distances2.push_back(error.dot(term.information * redundancy.partialPivLu().solve(error)));
+  }
+  return distances2;
 }
+
+template std::vector<double> leaveOneOut2<Se2>(const std::vector<PoseTerm<Se2>>&,
+                                               const std::vector<Se2::Pose>&,
+                                               const std::vector<int>&, const BlockCholesky<3>&,
+                                               const std::vector<EdgeIndex>&);
+template std::vector<double> leaveOneOut2<Se3>(const std::vector<PoseTerm<Se3>>&,
+                                               const std::vector<Se3::Pose>&,
+                                               const std::vector<int>&, const BlockCholesky<6>&,
+                                               const std::vector<EdgeIndex>&);
 
 }  // namespace lamp

@@ -2,20 +2,29 @@
 
 #include <vector>
 
-#include "lamp/core/PoseGraph.h"
+#include "BlockCholesky.h"
+#include "PoseTerm.h"
 
 namespace lamp {
 
-/** For each of some edges, the squared Mahalanobis distance of its measurement to what all other
- * edges say, to first order (Baarda, "A testing procedure for use in geodetic networks", 1968): by
- * so much the sum of squares falls without the edge. Its residual may be small though that is
- * large, where the others have given way.
- *
- * \param poses by place in PoseGraph::nodes(), then landmarks(): the optimum.
- * \param taking_part flags of all edges, with which it is one. \param edges which take part.
- * \return zeros if the normal equations cannot be factorised. */
-std::vector<double> leaveOneOut2(const PoseGraph& graph, const std::vector<Pose3>& poses,
-                                 const std::vector<bool>& taking_part,
+/** PoseProblem::leaveOneOut2(), from the factorised normal equations at `poses`.
+ * \param row of each pose in the equations, -1 for what is held. */
+template <class Space>
+std::vector<double> leaveOneOut2(const std::vector<PoseTerm<Space>>& terms,
+                                 const std::vector<typename Space::Pose>& poses,
+                                 const std::vector<int>& row,
+                                 const BlockCholesky<Space::kDof>& cholesky,
                                  const std::vector<EdgeIndex>& edges);
+
+extern template std::vector<double> leaveOneOut2<Se2>(const std::vector<PoseTerm<Se2>>&,
+                                                      const std::vector<Se2::Pose>&,
+                                                      const std::vector<int>&,
+                                                      const BlockCholesky<3>&,
+                                                      const std::vector<EdgeIndex>&);
+extern template std::vector<double> leaveOneOut2<Se3>(const std::vector<PoseTerm<Se3>>&,
+                                                      const std::vector<Se3::Pose>&,
+                                                      const std::vector<int>&,
+                                                      const BlockCholesky<6>&,
+                                                      const std::vector<EdgeIndex>&);
 
 }  // namespace lamp

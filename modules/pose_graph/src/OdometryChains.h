@@ -28,6 +28,8 @@ class OdometryChains {
   std::optional<RelativePose> between(KeyframeId a, KeyframeId b, double scale = 1.0) const;
   /** From the first key node of its chain to a key node. */
   RelativePose fromFirst(KeyframeId id) const;
+  /** Its pose only. */
+  const Pose3& poseFromFirst(KeyframeId id) const { return links_[graph_.place(id)].first_T_node; }
   int size() const { return static_cast<int>(priors_.size()); }
   KeyframeId first(int chain) const { return first_[chain]; }
   bool hasPrior(int chain) const { return priors_[chain].has_value(); }

@@ -7,7 +7,6 @@
 #include "OdometryChains.h"
 #include "PoseVolume.h"
 #include "lamp/core/ChiSquare.h"
-#include "lamp/pose_graph/InitialGuess.h"
 
 IMPLEMENTS_MRPT_OBJECT(OdometryGate, OutlierRejection, lamp)
 
@@ -16,6 +15,7 @@ namespace lamp {
 namespace {
 
 constexpr double kNearly = 0.97;
+constexpr size_t kSampled = 400;
 /** Smaller scales may be chance, and not to know of them does no harm. */
 constexpr double kLeastMistake = 16.0;
 
@@ -31,8 +31,8 @@ struct GatedLoop {
   }
 };
 
-std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const std::vector<bool>& admitted) {
-  const OdometryChains chains(graph);
+std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const OdometryChains& chains,
+                                  const std::vector<bool>& admitted) {
   const bool planar = graph.planar();
   std::vector<GatedLoop> loops;
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
@@ -47,6 +47,14 @@ std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const std::vector<bool
                      std::max(1, informationRank(edge.information, planar))});
   }
   return loops;
+}
+
+/** Loops at even steps: as many as tell the scale. */
+std::vector<GatedLoop> sample(const std::vector<GatedLoop>& loops) {
+  const size_t step = loops.size() / kSampled + 1;
+  std::vector<GatedLoop> sampled;
+  for (size_t i = 0; i < loops.size(); i += step) sampled.push_back(loops[i]);
+  return sampled;
 }
 
 /** How many loops lie as near to odometry as true ones should, and how many false ones would. */
@@ -98,11 +106,9 @@ void OdometryGateOptions::visit(OptionVisitor& v) {
 }
 
 void OdometryGate::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
-  const std::vector<GatedLoop> loops = gatedLoops(graph, admitted);
-  const double scale =
-      loops.empty()
-          ? 1.0
-          : fittingScale(loops, options_, PoseVolume(initialGuess(graph), graph.planar()));
+  const OdometryChains chains(graph);
+  const std::vector<GatedLoop> loops = gatedLoops(graph, chains, admitted);
+  const double scale = fittingScale(sample(loops), options_, PoseVolume(graph, chains));
   scale_ = scale >= kLeastMistake ? scale : 1.0;
   for (const GatedLoop& loop : loops)
     if (loop.distance2(scale) > chiSquareQuantile(options_.inlier_probability, loop.rank))

@@ -33,6 +33,12 @@ class PoseProblem {
   virtual void setWeight(EdgeIndex edge, double weight) = 0;
   /** Squared Mahalanobis residual at poses(), without the weight. */
   virtual double chi2(EdgeIndex edge) const = 0;
+  /** For each of some edges that take part, the squared Mahalanobis distance of its measurement to
+   * what all other edges say, to first order about poses(), an optimum (Baarda, "A testing
+   * procedure for use in geodetic networks", 1968): by so much the sum of squares falls without the
+   * edge. Its residual may be small though that is large, where the others have given way. Zeros if
+   * the normal equations are singular. */
+  virtual std::vector<double> leaveOneOut2(const std::vector<EdgeIndex>& edges) = 0;
   /** Moves poses() to a minimum; leaves them alone if the summary is not usable. */
   virtual SolveSummary solve(const SolverOptions& options) = 0;
 };

@@ -34,11 +34,12 @@ double share(const Matrix& C, const Matrix& D) {
 
 }  // namespace
 
-PoseVolume::PoseVolume(const std::vector<Pose3>& world_T_base, bool planar) : planar_(planar) {
+PoseVolume::PoseVolume(const PoseGraph& graph, const OdometryChains& chains)
+    : planar_(graph.planar()) {
   Eigen::AlignedBox3d box;
-  for (const Pose3& pose : world_T_base) box.extend(pose.translation());
+  for (const Node& node : graph.nodes()) box.extend(chains.poseFromFirst(node.id).translation());
   for (int axis = 0; axis < 3; ++axis) sides_[axis] = 2.0 * std::max(1.0, box.sizes()[axis]);
-  sides_.tail<3>().setConstant(planar ? 2.0 * M_PI : std::cbrt(kAllRotations));
+  sides_.tail<3>().setConstant(planar_ ? 2.0 * M_PI : std::cbrt(kAllRotations));
 }
 
 double PoseVolume::chance(const Matrix6d& covariance, double threshold) const {

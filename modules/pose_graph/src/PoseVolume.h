@@ -1,7 +1,6 @@
 #pragma once
 
-#include "lamp/core/PoseGraph.h"
-#include "lamp/pose_graph/OutlierRejection.h"
+#include "OdometryChains.h"
 
 namespace lamp {
 
@@ -9,8 +8,9 @@ namespace lamp {
  * twice its extent each way, rotations over all. */
 class PoseVolume {
  public:
-  /** \param world_T_base that make the map; extents below 1 m count as 1 m. */
-  PoseVolume(const std::vector<Pose3>& world_T_base, bool planar);
+  /** The extent is that of the odometry of all chains, as if all started at one place. Below 1 m it
+   * counts as 1 m. */
+  PoseVolume(const PoseGraph& graph, const OdometryChains& chains);
 
   /** Of an ellipsoid of squared Mahalanobis distance at most `threshold`: the ratio of volumes, at
    * most 1, with an ellipsoid that leaves the map cut there, roughly. */

@@ -1,6 +1,7 @@
 #include "SparseProblem.h"
 
 #include "FinitePoses.h"
+#include "LeaveOneOut.h"
 
 namespace lamp {
 
@@ -14,6 +15,7 @@ SparseProblem<Space>::SparseProblem(const PoseGraph& graph, const std::vector<Po
 template <class Space>
 void SparseProblem<Space>::setPoses(const std::vector<Pose3>& poses) {
   checkFinite(graph_, poses);
+  factorized_here_ = false;
   poses_.clear();
   for (const Pose3& pose : poses) poses_.push_back(Space::fromPose3(normalized(pose)));
 }
@@ -28,7 +30,18 @@ std::vector<Pose3> SparseProblem<Space>::poses() const {
 template <class Space>
 void SparseProblem<Space>::setWeight(EdgeIndex edge, double weight) {
   if ((terms_[edge].weight > 0) != (weight > 0)) equations_.reset();
+  if (terms_[edge].weight != weight) factorized_here_ = false;
   terms_[edge].weight = weight;
+}
+
+template <class Space>
+std::vector<double> SparseProblem<Space>::leaveOneOut2(const std::vector<EdgeIndex>& edges) {
+  if (!equations_) build();
+  if (!factorized_here_) {
+    linearize();
+    if (!factorize(kNoDamping)) return std::vector<double>(edges.size(), 0.0);
+  }
+  return lamp::leaveOneOut2<Space>(terms_, poses_, row_, *cholesky_, edges);
 }
 
 template <class Space>
@@ -36,7 +49,9 @@ SolveSummary SparseProblem<Space>::solve(const SolverOptions& options) {
   if (!equations_) build();
   const std::vector<Pose> start = poses_;
   const SolveSummary summary = minimize_(*this, options);
-  if (!summary.usable) poses_ = start;
+  if (summary.usable) return summary;
+  poses_ = start;
+  factorized_here_ = false;
   return summary;
 }
 
@@ -48,16 +63,24 @@ void SparseProblem<Space>::build() {
   row_ = unknowns.row;
   equations_ = std::make_unique<NormalEquations<Space>>(terms_, unknowns);
   cholesky_ = std::make_unique<BlockCholesky<Space::kDof>>(equations_->matrix());
+  factorized_here_ = false;
 }
 
 template <class Space>
 std::optional<double> SparseProblem<Space>::computeStep(double damping) {
-  if (!cholesky_->factorize(equations_->matrix(), damping)) return std::nullopt;
+  if (!factorize(damping)) return std::nullopt;
   const Eigen::VectorXd& gradient = equations_->gradient();
   step_ = -gradient;
   cholesky_->solve(step_);
   move();
   return 0.5 * (damping * equations_->matrix().scaledNorm2(step_) - gradient.dot(step_));
+}
+
+template <class Space>
+bool SparseProblem<Space>::factorize(double damping) {
+  const bool done = cholesky_->factorize(equations_->matrix(), damping);
+  factorized_here_ = done && damping <= kNoDamping;
+  return done;
 }
 
 template <class Space>

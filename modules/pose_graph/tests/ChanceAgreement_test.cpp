@@ -70,9 +70,16 @@ TEST_P(Chance, WhereOdometryIsVagueOnlyLoopsThatAgreeStay) {
 
 TEST(PoseVolume, IsTheShareOfRandomPosesThatLieInside) {
   for (const bool planar : {true, false}) {
-    const std::vector<Pose3> map = {Pose3(Eigen::Translation3d(0, 0, 0)),
-                                    Pose3(Eigen::Translation3d(4, 3, 2))};
-    const PoseVolume volume(map, planar);
+    PoseGraph map;
+    for (int i = 0; i < 2; ++i) {
+      Node node;
+      node.id = keyframe(0, i);
+      node.planar = planar;
+      map.addNode(node);
+    }
+    map.addEdge(makeEdge(EdgeType::kOdometry, keyframe(0, 0), keyframe(0, 1),
+                         Pose3(Eigen::Translation3d(4, 3, 2)), informationOf(1, 1)));
+    const PoseVolume volume(map, OdometryChains(map));
     const Matrix6d covariance = informationOf(0.4, 0.4).inverse();
     const double threshold = chiSquareQuantile(0.9, planar ? 3 : 6);
     Random random(1);
