@@ -8,6 +8,8 @@ namespace lamp {
 
 namespace {
 
+/** Kernels may read behind the last block. */
+constexpr size_t kSpare = 1;
 /** Pivots below this share of their diagonal element are rounding errors. */
 constexpr double kLeastPivot = 1e-14;
 
@@ -45,8 +47,8 @@ template <int kSize>
 BlockCholesky<kSize>::BlockCholesky(const BlockMatrix<kSize>& structure,
                                     const BlockKernels& kernels)
     : symbolic_(static_cast<int>(structure.diagonal.size()), structure.pairs),
-      subtract_(kSize == 3 ? subtract3 : kernels.subtract6),
-      blocks_(symbolic_.rows().size()),
+      subtract_(kSize == 3 ? kernels.subtract3 : kernels.subtract6),
+      blocks_(symbolic_.rows().size() + kSpare),
       diagonal_(structure.diagonal.size()),
       position_(structure.diagonal.size()) {
   static_assert(kSize == 3 || kSize == 6);
@@ -160,7 +162,8 @@ std::vector<typename BlockCholesky<kSize>::InverseBlock> BlockCholesky<kSize>::i
 template <int kSize>
 std::vector<typename BlockCholesky<kSize>::Block> BlockCholesky<kSize>::selectedInverse() const {
   const int* const rows = symbolic_.rows().data();
-  std::vector<Block> inverse(blocks_.size(), Block::Zero()), scaled(blocks_.size());
+  std::vector<Block> inverse(symbolic_.rows().size(), Block::Zero()),
+      scaled(symbolic_.rows().size());
   std::vector<int> position(symbolic_.size(), -1);  // by row: its entry in the column at work
   for (int column = symbolic_.size() - 1; column >= 0; --column) {
     const int begin = symbolic_.columnBegin(column), end = symbolic_.columnEnd(column);

@@ -25,7 +25,7 @@ struct Avx512Column6 {
 }  // namespace
 
 extern const BlockKernels kAvx512Kernels;
-const BlockKernels kAvx512Kernels = {"avx512", subtractProducts<6, Avx512Column6>};
+const BlockKernels kAvx512Kernels = {"avx512", subtract3Avx2, subtractProducts<6, Avx512Column6>};
 
 }  // namespace lamp
 

@@ -43,11 +43,7 @@ struct Column3 {
 }  // namespace
 
 extern const BlockKernels kPortableKernels;
-const BlockKernels kPortableKernels = {"portable", subtractProducts<6, Column6>};
-
-void subtract3(const double* left, const double* right, const int* rows, size_t count,
-               const int* position, double* target) {
-  subtractProducts<3, Column3>(left, right, rows, count, position, target);
-}
+const BlockKernels kPortableKernels = {"portable", subtractProducts<3, Column3>,
+                                       subtractProducts<6, Column6>};
 
 }  // namespace lamp

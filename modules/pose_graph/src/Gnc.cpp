@@ -240,13 +240,12 @@ class GncRun {
       result.loops.push_back(
           {e, weight > 0 ? Verdict::kInlier : Verdict::kOutlier, weight, problem_->chi2(e)});
     }
-    result.report = {last_.usable,
-                     "GNC: " + stopping_ + "; last solve: " + last_.termination,
-                     iterations_,
-                     rounds_,
-                     initial_cost_,
-                     last_.final_cost,
-                     {}};
+    result.report.usable = last_.usable;
+    result.report.termination = "GNC: " + stopping_ + "; last solve: " + last_.termination;
+    result.report.iterations = iterations_;
+    result.report.rounds = rounds_;
+    result.report.initial_cost = initial_cost_;
+    result.report.final_cost = last_.final_cost;
     return result;
   }
 

@@ -19,16 +19,6 @@ void SolverOptions::visit(OptionVisitor& v) {
 
 namespace {
 
-std::vector<Pose3> startOf(const std::string& start, const PoseGraph& graph,
-                           const std::vector<bool>& admitted) {
-  if (start == "odometry") return initialGuess(graph, admitted);
-  if (start == "spanning_tree") return spanningTreeGuess(graph);
-  if (start == "chordal") return chordalGuess(graph);
-  std::vector<Pose3> estimates;
-  for (const Node& node : graph.nodes()) estimates.push_back(node.world_T_base);
-  return estimates;
-}
-
 /** Verdicts as the flags say. */
 PoseGraph judged(PoseGraph graph, const std::vector<bool>& admitted) {
   for (EdgeIndex e = 0; e < admitted.size(); ++e) {
@@ -36,6 +26,16 @@ PoseGraph judged(PoseGraph graph, const std::vector<bool>& admitted) {
     if (edge.mayBeRejected()) edge.verdict = admitted[e] ? Verdict::kInlier : Verdict::kOutlier;
   }
   return graph;
+}
+
+std::vector<Pose3> startOf(const std::string& start, const PoseGraph& graph,
+                           const std::vector<bool>& admitted) {
+  if (start == "odometry") return initialGuess(graph, admitted);
+  if (start == "spanning_tree") return spanningTreeGuess(judged(graph, admitted));
+  if (start == "chordal") return chordalGuess(judged(graph, admitted));
+  std::vector<Pose3> estimates;
+  for (const Node& node : graph.nodes()) estimates.push_back(node.world_T_base);
+  return estimates;
 }
 
 }  // namespace
@@ -46,34 +46,27 @@ void PlainOptions::visit(OptionVisitor& v) {
   solve.visit(v);
 }
 
-OptimizationResult PlainOptimizer::optimize(const PoseGraph& unjudged,
+OptimizationResult PlainOptimizer::optimize(const PoseGraph& graph,
                                             const std::vector<bool>& admitted) {
-  // A start in which some loops take part must not take those that do not.
-  const std::vector<Pose3> from = startOf(options_.start, judged(unjudged, admitted), admitted);
-  const SolveStart start = completeStart(unjudged, from, admitted);
-  const PoseGraph graph = judged(unjudged, start.admitted);
+  const SolveStart start = completeStart(graph, startOf(options_.start, graph, admitted), admitted);
   const std::unique_ptr<PoseProblem> problem = makePoseProblem(solver(), graph, start.poses);
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e)
-    if (!graph.edges()[e].active()) problem->setWeight(e, 0.0);
+    if (graph.edges()[e].mayBeRejected() && !start.admitted[e]) problem->setWeight(e, 0.0);
   const SolveSummary summary = problem->solve(options_.solve);
 
   OptimizationResult result;
   splitSolution(graph, start, problem->poses(), result);
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
-    const Edge& edge = graph.edges()[e];
-    if (!edge.mayBeRejected()) continue;
-    result.loops.push_back({e, edge.active() ? Verdict::kInlier : Verdict::kOutlier,
-                            edge.active() ? 1.0 : 0.0, problem->chi2(e)});
+    if (!graph.edges()[e].mayBeRejected()) continue;
+    const bool kept = start.admitted[e];
+    result.loops.push_back(
+        {e, kept ? Verdict::kInlier : Verdict::kOutlier, kept ? 1.0 : 0.0, problem->chi2(e)});
   }
-  result.report = {
-      summary.usable,
-      summary.termination,
-      summary.iterations,
-      1,
-      summary.initial_cost,
-      summary.final_cost,
-      {},
-  };
+  result.report.usable = summary.usable;
+  result.report.termination = summary.termination;
+  result.report.iterations = summary.iterations;
+  result.report.initial_cost = summary.initial_cost;
+  result.report.final_cost = summary.final_cost;
   return result;
 }
 
