@@ -73,14 +73,14 @@ struct KeyframePacket {
   KeyedScanPtr scan;
   /** `odom_T_base` of the scans between the previous key node and this one, in time order. */
   std::vector<StampedPose> passed_scans;
-  KeyframeExtras extras;
+  KeyframeExtras extras = {};
 };
 
 /** What came after a robot's last key node; closes its stream. */
 struct RobotEnd {
   RobotId robot;
   std::vector<StampedPose> passed_scans;
-  KeyframeExtras extras;  ///< in the frame of the last key node
+  KeyframeExtras extras = {};  ///< in the frame of the last key node
 };
 
 }  // namespace lamp
