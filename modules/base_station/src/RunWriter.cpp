@@ -147,6 +147,9 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
   if (components.size() > 1)
     text << "No trusted loop closure joins these " << components.size()
          << " components: they stay separate maps.\n";
+  if (const double scale = base.lastReport().odometry_scale; scale > 1.0)
+    text << "The loop closures say that odometry is worse than stated: its covariances were taken "
+         << scale << " times larger.\n";
   for (const FrameAgreement& frames : base.lastReport().frames)
     if (!frames.joined)
       text << result.robots.name(frames.a) << " and " << result.robots.name(frames.b) << ": of "

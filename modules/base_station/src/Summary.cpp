@@ -88,6 +88,7 @@ Json optimizationSummary(const RunResult& result) {
   json["iterations"] = report.iterations;
   json["initial_cost"] = report.initial_cost;
   json["final_cost"] = report.final_cost;
+  json["odometry_scale"] = report.odometry_scale;
   json["frames"] = Json::array();
   for (const FrameAgreement& frames : report.frames)
     json["frames"].push_back(frameSummary(result, frames));

@@ -18,16 +18,30 @@ namespace {
 
 constexpr int kIndexBits = 56;
 
+enum class LineKind {
+  kPose,
+  kRelativePose,
+  kLandmark,
+  kSighting,  ///< of a landmark from a pose
+  kOffset,    ///< of a sensor, a parameter of sightings in space
+};
+
 /** One kind of line: how many ids and numbers it has. */
 struct Tag {
   const char* name;
-  bool planar, edge;
+  bool planar;
+  LineKind kind;
   size_t ids, numbers;
 };
-constexpr Tag kTags[] = {{"VERTEX_SE2", true, false, 1, 3},
-                         {"VERTEX_SE3:QUAT", false, false, 1, 7},
-                         {"EDGE_SE2", true, true, 2, 3 + 6},
-                         {"EDGE_SE3:QUAT", false, true, 2, 7 + 21}};
+constexpr Tag kTags[] = {{"VERTEX_SE2", true, LineKind::kPose, 1, 3},
+                         {"VERTEX_SE3:QUAT", false, LineKind::kPose, 1, 7},
+                         {"EDGE_SE2", true, LineKind::kRelativePose, 2, 3 + 6},
+                         {"EDGE_SE3:QUAT", false, LineKind::kRelativePose, 2, 7 + 21},
+                         {"VERTEX_XY", true, LineKind::kLandmark, 1, 2},
+                         {"VERTEX_TRACKXYZ", false, LineKind::kLandmark, 1, 3},
+                         {"EDGE_SE2_XY", true, LineKind::kSighting, 2, 2 + 3},
+                         {"EDGE_SE3_TRACKXYZ", false, LineKind::kSighting, 3, 3 + 6},
+                         {"PARAMS_SE3OFFSET", false, LineKind::kOffset, 1, 7}};
 
 struct Line {
   const Tag* tag;
@@ -35,6 +49,8 @@ struct Line {
   std::vector<uint64_t> ids;
   Pose3 pose = Pose3::Identity();
   Matrix6d information = Matrix6d::Identity();
+
+  bool is(LineKind kind) const { return tag->kind == kind; }
 };
 
 [[noreturn]] void refuse(const std::string& where, const std::string& why) {
@@ -67,6 +83,15 @@ Matrix6d planarInformation(const double* upper) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) information(kPlanarAxes[i], kPlanarAxes[j]) = m(i, j);
   return information;
+}
+
+/** A point of 2 or 3 coordinates, and what is behind them of its information. */
+void readPoint(const std::vector<double>& v, Line& line) {
+  const int axes = line.tag->planar ? 2 : 3;
+  line.pose.translation().head(axes) = Eigen::Map<const Eigen::VectorXd>(v.data(), axes);
+  line.information.setZero();
+  if (line.is(LineKind::kSighting))
+    line.information.topLeftCorner(axes, axes) = symmetricFrom(v.data() + axes, axes);
 }
 
 /** Reads the lines one by one. */
@@ -118,7 +143,7 @@ class Parser {
         refuse(line.where, "'" + word + "' is no id of up to 64 bits");
       line.ids.push_back(id);
     }
-    if (line.tag->edge && line.ids[0] == line.ids[1])
+    if (line.is(LineKind::kRelativePose) && line.ids[0] == line.ids[1])
       refuse(line.where, "joins a node with itself");
   }
 
@@ -130,8 +155,9 @@ class Parser {
       if (!std::isfinite(value)) refuse(line.where, "'" + words[i] + "' is not finite");
       v.push_back(value);
     }
+    if (line.is(LineKind::kLandmark) || line.is(LineKind::kSighting)) return readPoint(v, line);
     line.pose = line.tag->planar ? planarFrom(v.data()) : quaternionFrom(v.data(), line.where);
-    if (!line.tag->edge) return;
+    if (!line.is(LineKind::kRelativePose)) return;
     line.information = line.tag->planar ? planarInformation(v.data() + 3)
                                         : fromG2oInformation(symmetricFrom(v.data() + 7, 6));
   }
@@ -151,22 +177,43 @@ class Builder {
     for (const Line& line : lines) {
       if (line.tag->planar != lines.front().tag->planar)
         refuse(line.where, "the file mixes SE2 and SE3");
-      for (const uint64_t id : line.ids) nodes_[id].planar = line.tag->planar;
+      collectIds(line);
     }
+    for (const auto& [id, landmark] : landmarks_)
+      if (nodes_.count(id))
+        throw std::runtime_error("g2o: " + std::to_string(id) + " is a pose and a landmark");
     nameNodes();
     for (const Line& line : lines)
-      if (!line.tag->edge) nodes_[line.ids[0]].world_T_base = line.pose;
+      if (line.is(LineKind::kPose)) nodes_[line.ids[0]].world_T_base = line.pose;
     for (const auto& [id, node] : nodes_) {
       result_.graph.addNode(node);
       result_.ids.push_back(id);
     }
-    for (const Line& line : lines)
-      if (line.tag->edge) addEdge(line);
+    for (auto& [id, landmark] : landmarks_) {
+      landmark.name = std::to_string(id);
+      result_.graph.addLandmark(landmark);
+    }
+    for (const Line& line : lines) {
+      if (line.is(LineKind::kRelativePose)) addEdge(line);
+      if (line.is(LineKind::kSighting)) addSighting(line);
+    }
     placeNodesWithoutVertex(lines);
+    placeLandmarksWithoutVertex();
     return std::move(result_);
   }
 
  private:
+  void collectIds(const Line& line) {
+    if (line.is(LineKind::kOffset)) offsets_[line.ids[0]] = line.pose;
+    if (line.is(LineKind::kLandmark))
+      landmarks_[line.ids[0]] = {"", line.pose.translation(), false, true};
+    if (line.is(LineKind::kSighting)) landmarks_[line.ids[1]];
+    const size_t poses = line.is(LineKind::kRelativePose)
+                             ? 2
+                             : line.is(LineKind::kPose) || line.is(LineKind::kSighting);
+    for (size_t i = 0; i < poses; ++i) nodes_[line.ids[i]].planar = line.tag->planar;
+  }
+
   /** Robots in the order of their letters. Indices are those of symbols, else the rank of the id:
    * an index has 32 bits only. */
   void nameNodes() {
@@ -197,6 +244,29 @@ class Builder {
     edge.type = odometry ? EdgeType::kOdometry : EdgeType::kLoopClosure;
     edge.verdict = odometry ? Verdict::kInlier : Verdict::kPending;
     if (odometry) has_odometry_[low] = true;
+    add(edge, line);
+  }
+
+  void addSighting(const Line& line) {
+    Pose3 base_T_sensor = Pose3::Identity();
+    if (!line.tag->planar) {
+      const auto offset = offsets_.find(line.ids[2]);
+      if (offset == offsets_.end())
+        refuse(line.where, "there is no PARAMS_SE3OFFSET " + std::to_string(line.ids[2]));
+      base_T_sensor = offset->second;
+    }
+    Edge edge;
+    edge.type = EdgeType::kPosition;
+    edge.from = edge.to = nodes_.at(line.ids[0]).id;
+    edge.landmark = *result_.graph.findLandmark(std::to_string(line.ids[1]));
+    edge.from_T_to.translation() = base_T_sensor * line.pose.translation();
+    const Matrix6d turn = adjoint(Pose3(Eigen::Quaterniond(base_T_sensor.linear())));
+    edge.information = turn * line.information * turn.transpose();
+    edge.verdict = Verdict::kPending;
+    add(edge, line);
+  }
+
+  void add(const Edge& edge, const Line& line) {
     try {
       result_.graph.addEdge(edge);
     } catch (const std::invalid_argument&) {
@@ -204,10 +274,21 @@ class Builder {
     }
   }
 
+  /** Where the first sighting puts them. */
+  void placeLandmarksWithoutVertex() {
+    for (const Edge& edge : result_.graph.edges()) {
+      if (!edge.endsAtLandmark()) continue;
+      Landmark& landmark = result_.graph.landmarks()[edge.landmark];
+      if (landmark.placed) continue;
+      landmark.world_p = result_.graph.node(edge.from).world_T_base * edge.from_T_to.translation();
+      landmark.placed = true;
+    }
+  }
+
   void placeNodesWithoutVertex(const std::vector<Line>& lines) {
     const bool complete =
         static_cast<size_t>(std::count_if(lines.begin(), lines.end(), [](const Line& l) {
-          return !l.tag->edge;
+          return l.is(LineKind::kPose);
         })) >= nodes_.size();
     if (complete) return;
     const std::vector<Pose3> guess = spanningTreeGuess(result_.graph);
@@ -217,6 +298,8 @@ class Builder {
 
   G2oGraph result_;
   std::map<uint64_t, Node> nodes_;
+  std::map<uint64_t, Landmark> landmarks_;
+  std::map<uint64_t, Pose3> offsets_;
   std::map<uint64_t, bool> has_odometry_;  ///< from this id to the next
 };
 
@@ -225,6 +308,47 @@ class Builder {
 std::string G2oGraph::name(KeyframeId id) const {
   const char letter = letters.at(id.robot.value);
   return letter ? letter + std::to_string(id.index) : std::to_string(ids.at(graph.place(id)));
+}
+
+namespace {
+
+std::string numbersOf(const Eigen::VectorXd& values) {
+  std::string text;
+  for (const double value : values) text += " " + formatDouble(value);
+  return text;
+}
+
+/** Upper triangle, row by row. */
+Eigen::VectorXd upperOf(const Eigen::MatrixXd& m) {
+  Eigen::VectorXd values(m.rows() * (m.rows() + 1) / 2);
+  Eigen::Index next = 0;
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    for (Eigen::Index j = i; j < m.cols(); ++j) values[next++] = m(i, j);
+  return values;
+}
+
+}  // namespace
+
+std::string toG2o(const G2oGraph& g2o) {
+  const PoseGraph& graph = g2o.graph;
+  std::string text = toG2o(graph, g2o.ids);
+  if (graph.landmarks().empty()) return text;
+  const bool planar = graph.planar();
+  const int axes = planar ? 2 : 3;
+  if (!planar) text += "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n";
+  for (const Landmark& landmark : graph.landmarks())
+    if (landmark.placed)
+      text += std::string(planar ? "VERTEX_XY " : "VERTEX_TRACKXYZ ") + landmark.name +
+              numbersOf(landmark.world_p.head(axes)) + "\n";
+  for (const Edge& edge : graph.edges()) {
+    if (edge.type != EdgeType::kPosition || !edge.active()) continue;
+    text += std::string(planar ? "EDGE_SE2_XY " : "EDGE_SE3_TRACKXYZ ") +
+            std::to_string(g2o.ids[graph.place(edge.from)]) + " " +
+            graph.landmarks()[edge.landmark].name + (planar ? "" : " 0") +
+            numbersOf(edge.from_T_to.translation().head(axes)) +
+            numbersOf(upperOf(edge.information.topLeftCorner(axes, axes))) + "\n";
+  }
+  return text;
 }
 
 G2oGraph g2oFromText(const std::string& text, const std::string& name) {

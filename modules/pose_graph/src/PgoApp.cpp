@@ -92,7 +92,7 @@ void run(const Arguments& arguments) {
   if (!result.report.usable)
     throw std::runtime_error("the optimisation failed: " + result.report.termination);
   applyResult(result, g2o.graph);
-  writeTextFile(arguments.out, toG2o(g2o.graph, g2o.ids));
+  writeTextFile(arguments.out, toG2o(g2o));
   if (!arguments.covariances.empty())
     writeTextFile(arguments.covariances, covarianceTable(g2o).text());
   std::cout << (arguments.json == "-" ? report.dump(1) + "\n" : pgoSummary(report));

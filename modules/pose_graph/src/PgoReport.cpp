@@ -39,7 +39,8 @@ Json edgeRows(const G2oGraph& g2o, const OptimizationResult& result,
   const std::vector<Edge>& edges = g2o.graph.edges();
   for (EdgeIndex e = 0; e < edges.size(); ++e)
     rows.push_back({{"from", g2o.name(edges[e].from)},
-                    {"to", g2o.name(edges[e].to)},
+                    {"to", edges[e].endsAtLandmark() ? g2o.graph.landmarks()[edges[e].landmark].name
+                                                     : g2o.name(edges[e].to)},
                     {"type", toString(edges[e].type)},
                     {"weight", 1.0},
                     {"verdict", toString(Verdict::kInlier)},
@@ -57,20 +58,29 @@ Json pgoReport(const G2oGraph& g2o, const OptimizationResult& result, size_t tru
   std::vector<Pose3> before;
   for (const Node& node : g2o.graph.nodes()) before.push_back(node.world_T_base);
   const auto residuals_before = edgeResiduals2(g2o.graph, before);
-  const auto residuals_after = edgeResiduals2(g2o.graph, result.world_T_base);
+  PoseGraph solved = g2o.graph;
+  applyResult(result, solved);
+  const auto residuals_after = edgeResiduals2(solved, result.world_T_base);
   const Json rows = edgeRows(g2o, result, residuals_after);
   double cost_before = 0, cost_after = 0;
-  size_t inliers = 0;
+  size_t loops = 0, inliers = 0, sightings = 0, sightings_kept = 0;
   for (EdgeIndex e = 0; e < rows.size(); ++e) {
     cost_before += 0.5 * residuals_before[e];
     cost_after += 0.5 * rows[e]["weight"].get<double>() * residuals_after[e];
   }
-  for (const LoopVerdict& loop : result.loops) inliers += loop.verdict == Verdict::kInlier;
+  for (const LoopVerdict& loop : result.loops) {
+    const bool is_loop = g2o.graph.edges()[loop.edge].isLoopClosure();
+    ++(is_loop ? loops : sightings);
+    (is_loop ? inliers : sightings_kept) += loop.verdict == Verdict::kInlier;
+  }
   Json report = {{"planar", g2o.graph.planar()},
                  {"nodes", g2o.graph.nodes().size()},
                  {"robots", g2o.letters.size()},
                  {"edges", rows.size()},
-                 {"loops", result.loops.size()},
+                 {"loops", loops},
+                 {"landmarks", g2o.graph.landmarks().size()},
+                 {"sightings", sightings},
+                 {"sightings_kept", sightings_kept},
                  {"inliers", inliers},
                  {"skipped_lines", g2o.skipped},
                  {"usable", result.report.usable},
@@ -107,6 +117,10 @@ std::string pgoSummary(const Json& report) {
   text << std::setprecision(8) << report["nodes"] << " nodes of " << report["robots"]
        << " robot(s), " << report["edges"] << " edges\n"
        << "loop closures: " << report["inliers"] << " of " << report["loops"] << " kept\n"
+       << (report["landmarks"] > 0 ? "landmarks: " + report["landmarks"].dump() +
+                                         ", sightings: " + report["sightings_kept"].dump() +
+                                         " of " + report["sightings"].dump() + " kept\n"
+                                   : "")
        << "cost: " << report["cost_before"].get<double>() << " before, with all edges; "
        << report["cost_after"].get<double>() << " after, weighted\n"
        << report["rounds"] << " rounds, " << report["iterations"] << " iterations; "

@@ -48,6 +48,40 @@ TEST(G2oFile, VerticesAndInformationOfQuaternions) {
   EXPECT_FALSE(g2o.graph.planar());
 }
 
+TEST(G2oFile, LandmarksInThePlaneAndInSpace) {
+  const std::string chain = "EDGE_SE2 0 1" + kStep;
+  const G2oGraph planar =
+      g2oFromText(chain + "EDGE_SE2_XY 0 9 2 1 25 0 16\nEDGE_SE2_XY 1 9 1 0.5 25 0 16\n", "t");
+  ASSERT_EQ(planar.graph.landmarks().size(), 1u);
+  EXPECT_EQ(planar.graph.landmarks()[0].name, "9");
+  EXPECT_EQ(planar.graph.landmarks()[0].world_p, Eigen::Vector3d(2, 1, 0));
+  EXPECT_THAT(planar.ids, ElementsAre(0, 1)) << "a landmark is no key node";
+  ASSERT_EQ(planar.graph.edges().size(), 3u);
+  EXPECT_EQ(planar.graph.edges()[1].type, EdgeType::kPosition);
+  EXPECT_EQ(planar.graph.edges()[1].information(1, 1), 16);
+
+  // The camera sits 1 m ahead and looks to the left.
+  const std::string camera =
+      "PARAMS_SE3OFFSET 3 1 0 0 0 0 0.70710678118654752 0.70710678118654752\n";
+  const std::string sighting = "EDGE_SE3_TRACKXYZ 7 20 3 2 0 0.5 100 0 0 25 0 16\n";
+  const std::string step = "EDGE_SE3:QUAT 7 8" + kStep3;
+  const G2oGraph space = g2oFromText(step + sighting + "VERTEX_TRACKXYZ 20 1 2 3\n" + camera, "t");
+  const Edge& edge = space.graph.edges()[1];
+  EXPECT_LT((edge.from_T_to.translation() - Eigen::Vector3d(1, 2, 0.5)).norm(), 1e-12);
+  EXPECT_NEAR(edge.information(0, 0), 25, 1e-9);
+  EXPECT_NEAR(edge.information(1, 1), 100, 1e-9);
+  EXPECT_EQ(space.graph.landmarks()[0].world_p, Eigen::Vector3d(1, 2, 3));
+
+  const G2oGraph again = g2oFromText(toG2o(space), "again");
+  EXPECT_TRUE(again.graph.edges()[1].from_T_to.isApprox(edge.from_T_to, 1e-12));
+  EXPECT_TRUE(again.graph.edges()[1].information.isApprox(edge.information, 1e-12));
+  EXPECT_EQ(again.graph.landmarks()[0].world_p, Eigen::Vector3d(1, 2, 3));
+
+  expectRefused(step + sighting, {"bad.g2o:2", "EDGE_SE3_TRACKXYZ 7 20 3", "PARAMS_SE3OFFSET"});
+  expectRefused(chain + "EDGE_SE2_XY 0 1 2 1 25 0 16\n", {"1", "landmark"});
+  expectRefused(chain + "EDGE_SE2_XY 0 9 2 1 25 0 -16\n", {"bad.g2o:2", "semi-definite"});
+}
+
 TEST(G2oFile, SymbolsAreRobotsByLetter) {
   const uint64_t a5 = (uint64_t{'a'} << 56) + 5, b0 = uint64_t{'b'} << 56;
   const auto id = [](uint64_t value) { return std::to_string(value) + " "; };
@@ -80,8 +114,8 @@ TEST(G2oFile, ParallelEdgesBetweenSuccessorsAreLoops) {
 
 TEST(G2oFile, UnknownTagsAreCounted) {
   const G2oGraph g2o = g2oFromText(
-      "# a comment\nEDGE_SE2_XY 0 5 1 2 3 4 5\nEDGE_SE2 0 1" + kStep + "EDGE_SE2_XY x\n", "t");
-  EXPECT_EQ(g2o.skipped.at("EDGE_SE2_XY"), 2u);
+      "# a comment\nEDGE_RANGE 0 5 1 2 3 4 5\nEDGE_SE2 0 1" + kStep + "EDGE_RANGE x\n", "t");
+  EXPECT_EQ(g2o.skipped.at("EDGE_RANGE"), 2u);
   EXPECT_EQ(g2o.skipped.size(), 1u);
 }
 

@@ -20,8 +20,9 @@ struct G2oGraph {
   std::string name(KeyframeId id) const;
 };
 
-/** Reads EDGE_SE2, EDGE_SE3:QUAT, VERTEX_SE2 and VERTEX_SE3:QUAT; FIX is taken as read, since the
- * first key node of each component is held anyway.
+/** Reads EDGE_SE2, EDGE_SE3:QUAT, VERTEX_SE2 and VERTEX_SE3:QUAT; landmarks, which are named by
+ * their ids: EDGE_SE2_XY, EDGE_SE3_TRACKXYZ with PARAMS_SE3OFFSET, VERTEX_XY, VERTEX_TRACKXYZ; FIX
+ * is taken as read, since the first key node of each component is held anyway.
  *
  * VERTEX lines are not needed: without one, a node starts where odometry puts it. Ids have up to 64
  * bits. Those with a letter in the top byte are GTSAM's symbols: each letter is one robot; all
@@ -33,6 +34,9 @@ struct G2oGraph {
  * none, that are not finite, or too few or many; for an edge from a node to itself; for an
  * information matrix that is not positive semi-definite; for SE2 mixed with SE3. */
 G2oGraph g2oFromText(const std::string& text, const std::string& name);
+
+/** lamp::toG2o() with the file's ids, and the landmarks that have a place. */
+std::string toG2o(const G2oGraph& g2o);
 
 /** \throws std::runtime_error also if the file cannot be read. */
 G2oGraph readG2oFile(const std::string& path);
