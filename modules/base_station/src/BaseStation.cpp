@@ -64,6 +64,7 @@ std::string BaseStation::apply(const OperatorAction& action, const RobotTable& r
   const std::string outcome = operator_.apply(action, round_, robots, graph_, ledger_);
   actions_.push_back({action, outcome});
   if (outcome != "done") return outcome;
+  if (action.kind == ActionKind::kReset) stages_.back_end.optimizer->forget();
   if (action.kind == ActionKind::kRevive || action.kind == ActionKind::kReset)
     for (const Node& node : graph_.nodes()) propose(node.id);
   optimize();

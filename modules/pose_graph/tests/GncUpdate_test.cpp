@@ -62,6 +62,16 @@ TEST(GncUpdate, LoopsThatAgreeCostAFewIterations) {
   EXPECT_EQ(result.loops.size(), 60u);
 }
 
+TEST(GncUpdate, AfterForgettingItIsACallLikeTheFirst) {
+  Growing growing(makeWorld({}));
+  growing.addLoops(0, 55);
+  Gnc gnc;
+  const OptimizationResult first = gnc.optimize(growing.graph);
+  EXPECT_LT(gnc.optimize(growing.graph).report.iterations, first.report.iterations);
+  gnc.forget();
+  EXPECT_EQ(gnc.optimize(growing.graph).report.iterations, first.report.iterations);
+}
+
 TEST(GncUpdate, RejectedLoopsComeBackAndFalseOnesGo) {
   WorldOptions options;
   options.robots = 1;

@@ -40,6 +40,9 @@ struct GncMemory {
  * A round ends the graduation only if no weight has changed in it and the cost is the robust one
  * for all residuals; not because the cost stays, nor because all weights are 0 or 1.
  *
+ * The last stage also rejects loops without which the truncated cost is lower
+ * (PoseProblem::leaveOneOut2()): their own residuals may be small.
+ *
  * A graph that has grown since the last call is updated: only the new loops are graduated, from the
  * last poses, among loops that keep their weights; the last stage then judges all loops, so that
  * old ones come back, or go, where the new ones say so. When such updates have rejected a tenth as
@@ -55,6 +58,7 @@ class Gnc : public Optimizer {
   /** \throws std::runtime_error if the estimate of a node from which a chain starts is not finite.
    */
   OptimizationResult optimize(const PoseGraph& graph, const std::vector<bool>& admitted) override;
+  void forget() override { memory_ = {}; }
 
  private:
   GncOptions options_;

@@ -46,6 +46,8 @@ class Optimizer : public Stage {
    *  outliers. Former verdicts do not count. */
   virtual OptimizationResult optimize(const PoseGraph& graph,
                                       const std::vector<bool>& admitted) = 0;
+  /** The next call is like the first one. */
+  virtual void forget() {}
   /** All loops may take part. */
   OptimizationResult optimize(const PoseGraph& graph) {
     return optimize(graph, std::vector<bool>(graph.edges().size(), true));
