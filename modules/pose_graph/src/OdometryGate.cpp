@@ -18,6 +18,9 @@ constexpr double kNearly = 0.97;
 constexpr size_t kSampled = 400;
 /** Smaller scales may be chance, and not to know of them does no harm. */
 constexpr double kLeastMistake = 16.0;
+/** A few false loops that agree must not loosen odometry: of all loops, so many have to ask for it.
+ */
+constexpr double kFewestWitnesses = 10, kLeastWitnesses = 0.1;
 
 /** A loop closure beside what odometry says. */
 struct GatedLoop {
@@ -76,10 +79,15 @@ Near countNear(const std::vector<GatedLoop>& loops, double scale, double inlier_
   return near;
 }
 
+/** A factor of odometry's covariances, and how many true loops more than with 1 lie near then. */
+struct Scale {
+  double value = 1.0, witnesses = 0;
+};
+
 /** The least scale, at least 1, with which nearly as many loops lie near odometry as with any,
  * false ones not counted. */
-double fittingScale(const std::vector<GatedLoop>& loops, const OdometryGateOptions& options,
-                    const PoseVolume& volume) {
+Scale fittingScale(const std::vector<GatedLoop>& loops, const OdometryGateOptions& options,
+                   const PoseVolume& volume) {
   std::vector<std::pair<double, Near>> tried;
   for (double scale = 1.0;; scale *= 2.0) {
     scale = std::min(scale, options.max_scale);
@@ -89,11 +97,12 @@ double fittingScale(const std::vector<GatedLoop>& loops, const OdometryGateOptio
   }
   double most = 0;
   for (const auto& [scale, near] : tried) most = std::max(most, near.surplus());
-  if (!(most > 0)) return 1.0;
+  if (!(most > 0)) return {};
   const auto nearly_most = std::find_if(tried.begin(), tried.end(), [&](const auto& candidate) {
     return candidate.second.surplus() >= kNearly * most;
   });
-  return nearly_most->first;
+  const double at_first = std::max(0.0, tried.front().second.surplus());
+  return {nearly_most->first, nearly_most->second.surplus() - at_first};
 }
 
 }  // namespace
@@ -108,10 +117,14 @@ void OdometryGateOptions::visit(OptionVisitor& v) {
 void OdometryGate::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
   const OdometryChains chains(graph);
   const std::vector<GatedLoop> loops = gatedLoops(graph, chains, admitted);
-  const double scale = fittingScale(sample(loops), options_, PoseVolume(graph, chains));
-  scale_ = scale >= kLeastMistake ? scale : 1.0;
+  const std::vector<GatedLoop> sampled = sample(loops);
+  const Scale scale = fittingScale(sampled, options_, PoseVolume(graph, chains));
+  const bool sure =
+      scale.witnesses >=
+      std::max(kFewestWitnesses, kLeastWitnesses * static_cast<double>(sampled.size()));
+  scale_ = sure && scale.value >= kLeastMistake ? scale.value : 1.0;
   for (const GatedLoop& loop : loops)
-    if (loop.distance2(scale) > chiSquareQuantile(options_.inlier_probability, loop.rank))
+    if (loop.distance2(scale.value) > chiSquareQuantile(options_.inlier_probability, loop.rank))
       admitted[loop.edge] = false;
 }
 

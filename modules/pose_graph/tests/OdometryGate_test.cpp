@@ -53,6 +53,25 @@ TEST_P(Gate, OdometryThatIsWorseThanItSaysLosesNoLoop) {
   EXPECT_LT(passed(world, strict).right, 50);
 }
 
+TEST_P(Gate, TellsTheScaleOnlyIfManyLoopsAskForIt) {
+  const auto scaleOf = [](const World& world) {
+    std::vector<bool> admitted(world.graph.edges().size(), true);
+    OdometryGate gate;
+    gate.reject(world.graph, admitted);
+    return gate.odometryScale();
+  };
+  World world = makeWorld(options());
+  EXPECT_EQ(scaleOf(world), 1.0);
+  for (Edge& edge : world.graph.edges())
+    if (edge.type == EdgeType::kOdometry) edge.information *= 100;
+  EXPECT_GE(scaleOf(world), 16.0);
+
+  WorldOptions few = options();
+  few.loops = 0;
+  few.outliers = 3;
+  EXPECT_EQ(scaleOf(makeWorld(few)), 1.0) << "a false loop is no witness";
+}
+
 TEST_P(Gate, UnrelatedRobotsPass) {
   WorldOptions apart = options();
   apart.priors = false;

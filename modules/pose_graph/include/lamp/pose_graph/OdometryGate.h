@@ -16,9 +16,9 @@ struct OdometryGateOptions {
  * carried along by adjoints (Barfoot, Furgale, T-RO 2014, to first order). Between robots through
  * their priors, where both have one; loops across a gap of odometry pass.
  *
- * Odometry may be worse than it says: its covariances are first scaled so that the best tenth of
- * the loops fits it, up to a limit, and never down. If more loops fit it then than chance explains,
- * the optimisation is to take it so, too. */
+ * Odometry may be worse than it says: its covariances are first scaled, up to a limit and never
+ * down, so that nearly as many loops fit it as with any scale, false ones not counted. If a tenth
+ * of the loops, and not few, ask for much, the optimisation is to take it so, too. */
 class OdometryGate : public OutlierRejection {
   DEFINE_MRPT_OBJECT(OdometryGate, lamp)
 
