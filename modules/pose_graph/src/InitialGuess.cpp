@@ -138,7 +138,7 @@ std::vector<Pose3> initialGuess(const PoseGraph& graph, const std::vector<bool>&
   const std::vector<Pose3> first = FrameLayout(graph, chains, admitted).take();
   std::vector<Pose3> poses;
   for (const Node& node : graph.nodes())
-    poses.push_back(normalized(first[chains.chain(node.id)] * chains.fromFirst(node.id).a_T_b));
+    poses.push_back(normalized(first[chains.chain(node.id)] * chains.poseFromFirst(node.id)));
   return poses;
 }
 

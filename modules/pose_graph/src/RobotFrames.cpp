@@ -1,31 +1,11 @@
 #include "lamp/pose_graph/RobotFrames.h"
 
-#include <numeric>
-
 #include "FrameAverages.h"
+#include "lamp/core/DisjointSets.h"
 
 IMPLEMENTS_MRPT_OBJECT(RobotFrames, OutlierRejection, lamp)
 
 namespace lamp {
-
-namespace {
-
-/** Chains of odometry in one frame. */
-class Frames {
- public:
-  explicit Frames(int chains) : parent_(chains) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int chain) {
-    while (parent_[chain] != chain) chain = parent_[chain] = parent_[parent_[chain]];
-    return chain;
-  }
-  void join(int a, int b) { parent_[root(b)] = root(a); }
-  bool joined(int a, int b) { return root(a) == root(b); }
-
- private:
-  std::vector<int> parent_;
-};
-
-}  // namespace
 
 void RobotFramesOptions::visit(OptionVisitor& v) {
   v("min_agreeing", min_agreeing, "",
@@ -34,7 +14,7 @@ void RobotFramesOptions::visit(OptionVisitor& v) {
 
 void RobotFrames::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
   const OdometryChains chains(graph);
-  Frames frames(chains.size());
+  DisjointSets frames(static_cast<size_t>(chains.size()));
   int in_world = -1;
   for (int chain = 0; chain < chains.size(); ++chain) {
     if (!chains.hasPrior(chain)) continue;
