@@ -20,7 +20,9 @@ PoseGraph graphOfAllTypes(Random& random, bool planar) {
     graph.addNode(node);
   }
   graph.addLandmark({"lamp", random.pose(4.0, 0, planar).translation()});
-  const auto point = [&](double range) { return random.pose(range, 0, planar).translation(); };
+  const auto point = [&](double range) -> Eigen::Vector3d {
+    return random.pose(range, 0, planar).translation();
+  };
   const Matrix6d information = informationOf(0.1, 0.05);
   const auto pose = [&] { return random.pose(2.0, 0.4, planar); };
   graph.addEdge(makeEdge(EdgeType::kLoopClosure, kFrom, kTo, pose(), information));
