@@ -99,7 +99,8 @@ class GncRun {
   }
 
  private:
-  /** Takes the worst loops out until the others agree.
+  /** Takes the worst loops out until the others agree. Each solve starts anew: out of the shape
+   * that false loops gave it, the graph finds its way back slowly.
    * \return whether so few had to go that no other set of loops can be as large. */
   bool trim() {
     stopping_ = "all but a few loops agree";
@@ -111,7 +112,7 @@ class GncRun {
       if (worst <= 1.0) return true;
       weigh(kept(worst), true);
       if (trimmedShare() > kMostTrimmed) break;
-      solve(inner_);
+      solveFromGuess(inner_);
     }
     for (GncLoop& loop : loops_)
       if (loop.graduated) setWeight(loop, 1.0);
@@ -132,13 +133,22 @@ class GncRun {
     }
   }
 
-  /** Full solves and verdicts at the threshold in turn: neither can raise the truncated cost. */
+  /** Solves and verdicts at the threshold in turn: neither can raise the truncated cost. Short
+   * solves, until no verdict changes: with a false loop still in, there is hardly an end to them.
+   */
   void settle() {
     const auto verdict = [](double residual2) { return residual2 <= 1.0 ? 1.0 : 0.0; };
     weigh(verdict, false);
+    bool full = false;
     for (int round = 0; round < kMostSettlingRounds; ++round) {
-      if (!solved_) solve(full_);
-      if (weigh(verdict, false) && !rejectByLeavingOut()) return;
+      if (!solved_) solve(full ? full_ : first_);
+      const bool same = weigh(verdict, false);
+      if (same && rejectByLeavingOut()) {
+        solveFromGuess(first_);
+        continue;
+      }
+      if (same && (full || solved_)) return;
+      full = same;
     }
     stopping_ += ", but the last verdicts still changed";
   }
