@@ -1,5 +1,5 @@
 #!/bin/sh
-# What each part of the back end is worth on a simulated world: odometry alone, all loop closures, ICM, GNC, ICM and GNC,
+# What each part of the back end is worth on a simulated world: no loop closures, all loop closures, ICM, GNC, ICM and GNC,
 # and the default stages (odometry gate, chance agreement, frames of robots, GNC).
 #
 #   bench/ablation.sh WORLD OUT [--set section.key=value]...
@@ -23,12 +23,12 @@ variant() {
 rejection() { echo "--set pipeline.outlier_rejection=$1 --set pipeline.optimizer=$2"; }
 
 mkdir -p "$out"
-variant odometry $(rejection '' Lm) "$@" --set pipeline.candidates=
+variant no_loops $(rejection '' Lm) "$@" --set pipeline.candidates=
 variant all_loops $(rejection '' Lm) "$@"
 variant icm $(rejection Icm Lm) "$@"
 variant gnc $(rejection '' Gnc) "$@"
 variant icm_gnc $(rejection Icm Gnc) "$@"
 variant default "$@"
 set --
-for name in odometry all_loops icm gnc icm_gnc default; do set -- "$@" "$out/$name"; done
+for name in no_loops all_loops icm gnc icm_gnc default; do set -- "$@" "$out/$name"; done
 "$apps/lamp-eval" "$@" --truth "$world" --out "$out/comparison"
