@@ -133,9 +133,9 @@ class GncRun {
     }
   }
 
-  /** Solves and verdicts at the threshold in turn: neither can raise the truncated cost. Short
-   * solves, until no verdict changes: with a false loop still in, there is hardly an end to them.
-   */
+  /** Solves and verdicts at the threshold in turn, of which neither can raise the truncated cost;
+   * anew where loops were left out. Solves are short until no verdict changes: with a false loop
+   * still in, there is hardly an end to them. */
   void settle() {
     const auto verdict = [](double residual2) { return residual2 <= 1.0 ? 1.0 : 0.0; };
     weigh(verdict, false);

@@ -33,9 +33,9 @@ struct GncMemory {
  * Yang, Antonante, Tzoumas, Carlone, "Graduated Non-Convexity for Robust Spatial Perception: From
  * Non-Minimal Solvers to Global Outlier Rejection", RA-L 2020. Unlike there, each round starts
  * again from initialGuess(): a start at the last round's solution, which outliers have distorted,
- * loses true loops. A last stage alternates full solves with verdicts at the threshold until they
- * agree. The threshold of a loop is the quantile of the chi-square distribution with as many
- * degrees of freedom as its information matrix has rank.
+ * loses true loops. A last stage alternates solves with verdicts at the threshold until they
+ * agree, the last solve in full. The threshold of a loop is the quantile of the chi-square
+ * distribution with as many degrees of freedom as its information matrix has rank.
  *
  * A round ends the graduation only if no weight has changed in it and the cost is the robust one
  * for all residuals; not because the cost stays, nor because all weights are 0 or 1.
