@@ -62,7 +62,7 @@ PoseGraph recorded(const std::string& name, size_t loops) {
   const G2oGraph file = readG2oFile(dataFolder() + "/pose_graphs/" + name + ".g2o");
   PoseGraph graph;
   for (const Node& node : file.graph.nodes()) graph.addNode(node);
-  const KeyframeId first = file.graph.nodes().front().id;
+  const KeyNodeId first = file.graph.nodes().front().id;
   graph.addEdge(
       makeEdge(EdgeType::kPrior, first, first, Pose3::Identity(), informationOf(1e-3, 1e-3)));
   std::vector<Edge> closures;
@@ -161,7 +161,7 @@ Growth grow(bool planar, double share) {
   Random random(1);
   for (size_t i = 0; i < loops.size(); ++i)
     std::swap(loops[i], loops[i + random.below(loops.size() - i)]);
-  const KeyframeId newest = world.nodes().back().id;
+  const KeyNodeId newest = world.nodes().back().id;
   const auto touchesNewest = [&](const Edge& e) { return e.from == newest || e.to == newest; };
   std::stable_partition(loops.begin(), loops.end(),
                         [&](const Edge& edge) { return !touchesNewest(edge); });

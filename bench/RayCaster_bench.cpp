@@ -9,7 +9,7 @@
 #include "lamp/simulation/Lidar.h"
 #include "lamp/simulation/World.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 /** A world for 300 m of ways, and a robot that drives in it. */
@@ -70,4 +70,4 @@ BENCHMARK_CAPTURE(sweep, tunnel, "tunnel")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(sweep, ku, "ku")->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -10,6 +10,11 @@ namespace lamp {
 
 namespace {
 
+std::vector<std::shared_ptr<const Verifier>> verifiersOf(const SlamConfig& config) {
+  const auto verifiers = config.make<Verifier>();
+  return {verifiers.begin(), verifiers.end()};
+}
+
 std::shared_ptr<InitialAligner> teaserOf(const SlamConfig& config) {
   Faults faults;
   auto teaser = makeStage<InitialAligner>(StageName::parse("Teaser"), "initial aligner", "",
@@ -90,9 +95,8 @@ Outcome measurePeer(const RecordedPair& pair, const Judge& judge) {
 OurRegistration::OurRegistration(const SlamConfig& config)
     : options(config.registration.preparation.scan),
       aligner(teaserOf(config)),
-      refiner(config.stages.refiner),
-      verified({aligner}, refiner, {config.stages.verifiers.begin(), config.stages.verifiers.end()},
-               config.registration.ambiguity),
+      refiner(config.makeOne<Refiner>()),
+      verified({aligner}, refiner, verifiersOf(config), config.registration.ambiguity),
       unverified({aligner}, refiner, {}, config.registration.ambiguity) {}
 
 PreparedScanPtr OurRegistration::prepare(const Cloud& cloud) const {

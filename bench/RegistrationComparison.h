@@ -6,8 +6,8 @@
 #include <string>
 
 #include "RecordedPairs.h"
-#include "lamp/base_station/SlamConfig.h"
 #include "lamp/registration/LoopClosureComputation.h"
+#include "lamp/slam_app/SlamConfig.h"
 
 namespace lamp {
 

@@ -152,9 +152,10 @@ LoopClosureComputation computationFrom(const std::string& start,
     aligner = makeStage<InitialAligner>(StageName::parse(start), "initial aligner", "",
                                         config.ini(), faults);
   faults.throwIfAny();
+  const auto verifiers = config.make<Verifier>();
   return {{aligner},
-          config.stages.refiner,
-          {config.stages.verifiers.begin(), config.stages.verifiers.end()},
+          config.makeOne<Refiner>(),
+          {verifiers.begin(), verifiers.end()},
           config.registration.ambiguity};
 }
 
@@ -171,14 +172,14 @@ class Team {
  public:
   Team(const std::string& world, const std::vector<std::string>& overrides)
       : config_(SlamConfig::fromFile(world + "/lamp.ini", overrides, {})),
-        base_(config_, timer_),
+        base_(config_.makeBaseStationSetup(), timer_),
         scans_(config_.registration.preparation) {
     Handover handover(base_);
     FrontEndTeam front_ends(config_, handover);
     RawlogSource source(config_.input.rawlogs, config_.robots, robots_);
     while (const auto observation = source.next()) front_ends.observe(*observation);
     front_ends.finish();
-    for (const auto& [id, packet] : base_.packets()) scans_.add(packet);
+    for (const auto& [id, packet] : base_.tracks().packets()) scans_.add(packet);
     uncertainty_.emplace(base_.graph());
   }
 
@@ -297,7 +298,7 @@ int main(int argc, char** argv) {
   size_t pairs = 200;
   unsigned seed = 1;
   std::vector<std::string> overrides,
-      starts{"GroundTruth", "Odometry", "OdometryRotation", "Teaser"};
+      starts{"GroundTruth", "OdometryGuess", "OdometryRotationGuess", "Teaser"};
   app.add_option("WORLD", world, "folder made by lamp-sim --keyed")->required();
   app.add_option("--pairs", pairs, "true pairs, and as many false ones");
   app.add_option("--seed", seed, "of the choice of pairs");

@@ -5,7 +5,7 @@
 # time must find the same class registry as the application.
 function(add_lamp_module name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;TEST" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp)
   add_library(lamp_${name} SHARED ${sources})
   add_library(lamp::${name} ALIAS lamp_${name})
   set_target_properties(lamp_${name} PROPERTIES
@@ -14,6 +14,7 @@ function(add_lamp_module name)
   target_include_directories(lamp_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(lamp_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_compile_features(lamp_${name} PUBLIC cxx_std_17)
   target_link_libraries(lamp_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
     $<BUILD_INTERFACE:lamp_warnings>)

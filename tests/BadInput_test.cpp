@@ -74,7 +74,7 @@ class BadInput : public testing::Test {
   }
 
   size_t keyNodes(const std::string& out = "run") const {
-    return experiment_.result(out).keyframes("A").size();
+    return experiment_.result(out).keyNodes("A").size();
   }
 
   /** The graph, byte for byte, is that of the good recording. */

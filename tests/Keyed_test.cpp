@@ -125,19 +125,19 @@ class Keyed : public testing::Test {
     return recording;
   }
 
-  std::string keyframes(const std::string& run, const std::string& robot) const {
-    return experiment_.result(run).folder().keyframes(robot);
+  std::string keyNodes(const std::string& run, const std::string& robot) const {
+    return experiment_.result(run).folder().keyNodes(robot);
   }
 
   /** The run has the key nodes of the raw one, and a map as good. */
   void expectAsRaw(const std::string& run) const {
     for (const auto& [name, recording] : {std::pair{"A", a_}, std::pair{"B", b_}}) {
-      const KeyedClouds clouds = cloudsOf(keyframes("raw", name));
-      const size_t nodes = experiment_.result("raw").keyframes(name).size();
+      const KeyedClouds clouds = cloudsOf(keyNodes("raw", name));
+      const size_t nodes = experiment_.result("raw").keyNodes(name).size();
       ASSERT_EQ(clouds.size(), 2 * nodes - 1) << "two lidars, but at the first key node";
-      expectSameClouds(clouds, cloudsOf(keyframes(run, name)));
+      expectSameClouds(clouds, cloudsOf(keyNodes(run, name)));
       const FinishedRun result = experiment_.result(run);
-      EXPECT_EQ(result.keyframes(name).size(), nodes);
+      EXPECT_EQ(result.keyNodes(name).size(), nodes);
       EXPECT_EQ(result.trajectory(name).size(), nodes);
       const auto odometry = ateFromFirst(result.odometry(name), recording.truth);
       const auto mapped = ateFromFirst(result.trajectory(name), recording.truth);
@@ -152,14 +152,14 @@ class Keyed : public testing::Test {
   std::string raw_, keyed_;
 };
 
-TEST_F(Keyed, AKeyframesFolderReadsBackToTheSameKeyNodes) {
+TEST_F(Keyed, AKeyNodesFolderReadsBackToTheSameKeyNodes) {
   const LampResult end =
-      experiment_.run({keyed_, keyframes("raw", "A"), keyframes("raw", "B")}, "keyed");
+      experiment_.run({keyed_, keyNodes("raw", "A"), keyNodes("raw", "B")}, "keyed");
   ASSERT_EQ(end.exit_code, 0) << end.err;
   expectAsRaw("keyed");
 
   const LampResult again =
-      experiment_.run({keyed_, keyframes("keyed", "A"), keyframes("keyed", "B")}, "again");
+      experiment_.run({keyed_, keyNodes("keyed", "A"), keyNodes("keyed", "B")}, "again");
   ASSERT_EQ(again.exit_code, 0) << again.err;
   expectAsRaw("again");
 }
@@ -214,7 +214,7 @@ TEST_F(Keyed, TheOrderWithinAStampDoesNotMatter) {
   std::vector<std::string> arguments = {keyed_};
   for (const std::string name : {"A", "B"})
     arguments.push_back(experiment_.rawlog("recordings/" + name + ".rawlog",
-                                           asSimulated(readRawlog(keyframes("raw", name)))));
+                                           asSimulated(readRawlog(keyNodes("raw", name)))));
   const LampResult end = experiment_.run(arguments, "simulated");
   ASSERT_EQ(end.exit_code, 0) << end.err;
   EXPECT_THAT(end.err, IsEmpty());

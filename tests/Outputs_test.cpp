@@ -54,9 +54,9 @@ class Outputs : public testing::Test {
     const CsvTable ids = CsvTable::fromFile(run().folder().graphIds());
     std::map<int, Pose3> poses;
     for (const auto& row : ids.rows) {
-      const auto keyframes = run().keyframes(row[ids.column("robot")]);
+      const auto key_nodes = run().keyNodes(row[ids.column("robot")]);
       const size_t index = std::stoul(row[ids.column("index")]);
-      poses[std::stoi(row[ids.column("id")])] = keyframes.at(index).pose;
+      poses[std::stoi(row[ids.column("id")])] = key_nodes.at(index).pose;
     }
     return poses;
   }
@@ -227,16 +227,16 @@ TEST_F(CloudOutputs, PlyLoadsInMrpt) {
 
 TEST_F(Outputs, KeyedScansLoadInMrpt) {
   mrpt::obs::CRawlog rawlog;
-  ASSERT_TRUE(rawlog.loadFromRawLogFile(run().folder().keyframes("A")));
-  const auto keyframes = run().keyframes("A");
-  ASSERT_EQ(rawlog.size(), 2 * keyframes.size());
-  for (size_t i = 0; i < keyframes.size(); ++i) {
+  ASSERT_TRUE(rawlog.loadFromRawLogFile(run().folder().keyNodes("A")));
+  const auto key_nodes = run().keyNodes("A");
+  ASSERT_EQ(rawlog.size(), 2 * key_nodes.size());
+  for (size_t i = 0; i < key_nodes.size(); ++i) {
     const auto odometry = rawlog.asObservation<mrpt::obs::CObservationRobotPose>(2 * i);
     const auto cloud = rawlog.asObservation<mrpt::obs::CObservationPointCloud>(2 * i + 1);
     ASSERT_TRUE(odometry && cloud);
     EXPECT_EQ(odometry->sensorLabel, "A/odometry");
     EXPECT_EQ(cloud->sensorLabel, "A/lidar");
-    EXPECT_NEAR(mrpt::Clock::toDouble(cloud->timestamp), keyframes[i].stamp, 1e-5);
+    EXPECT_NEAR(mrpt::Clock::toDouble(cloud->timestamp), key_nodes[i].stamp, 1e-5);
     EXPECT_GT(cloud->pointcloud->size(), 500u);
     EXPECT_NEAR(cloud->sensorPose.z(), 0.3, 1e-9);
   }
@@ -246,16 +246,16 @@ TEST_F(Outputs, KeyedScansOpenInRawlogEdit) {
   if (!std::filesystem::exists(kRawlogEdit)) GTEST_SKIP() << kRawlogEdit << " is not installed";
   const std::string info = experiment_.path("info.txt");
   const std::string command =
-      kRawlogEdit + " -i " + run().folder().keyframes("B") + " --info > " + info + " 2>&1";
+      kRawlogEdit + " -i " + run().folder().keyNodes("B") + " --info > " + info + " 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_THAT(readFile(info), AllOf(HasSubstr("B/odometry"), HasSubstr("B/lidar")));
 }
 
 TEST_F(Outputs, KeyedScansCanBeMappedAgain) {
   const LampResult end = experiment_.run(
-      {experiment_.file("again.ini", iniFor3d()), run().folder().keyframes("A")}, "again");
+      {experiment_.file("again.ini", iniFor3d()), run().folder().keyNodes("A")}, "again");
   ASSERT_EQ(end.exit_code, 0) << end.err;
-  const auto first = run().keyframes("A"), again = experiment_.result("again").keyframes("A");
+  const auto first = run().keyNodes("A"), again = experiment_.result("again").keyNodes("A");
   ASSERT_EQ(again.size(), first.size());
   for (size_t i = 0; i < first.size(); ++i) EXPECT_EQ(again[i].stamp, first[i].stamp);
   EXPECT_LT(ateFromFirst(again, a_.truth), 0.3);

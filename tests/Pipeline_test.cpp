@@ -90,7 +90,7 @@ TEST_P(Planar, LoopClosesInThePlane) {
   EXPECT_GT(before, 0.3);
   EXPECT_LT(after, before / 2);
   EXPECT_EQ(run.trajectory("A").size(), recording.truth.size());
-  for (const auto& trajectory : {run.trajectory("A"), run.odometry("A"), run.keyframes("A")})
+  for (const auto& trajectory : {run.trajectory("A"), run.odometry("A"), run.keyNodes("A")})
     expectInPlane(trajectory);
   EXPECT_THAT(readFile(run.folder().graphG2o()), HasSubstr("VERTEX_SE2 "));
   EXPECT_THAT(readFile(run.folder().graphG2o()), Not(HasSubstr("SE3")));
@@ -168,7 +168,7 @@ TEST_F(TwoRobots, StaySeparateUntilEnoughLoopsAgree) {
   EXPECT_EQ(result.summary()["components"].size(), 2u);
   for (const auto& robot : result.summary()["robots"]) EXPECT_EQ(robot["start_pose_known"], false);
   for (const char* name : {"A", "B"}) {
-    const Pose3 first = result.keyframes(name).front().pose;
+    const Pose3 first = result.keyNodes(name).front().pose;
     EXPECT_TRUE(first.isApprox(Pose3::Identity(), 1e-6)) << name;
   }
 }
@@ -216,7 +216,7 @@ TEST(RobotsThatNeverMeet, GiveTwoMaps) {
   EXPECT_TRUE(run.has("maps/map.pcd"));
   EXPECT_TRUE(run.has("maps/map_2.pcd"));
   // They share the world frame all the same.
-  const Pose3 error = b.truth.front().pose.inverse() * run.keyframes("B").front().pose;
+  const Pose3 error = b.truth.front().pose.inverse() * run.keyNodes("B").front().pose;
   EXPECT_LT(error.translation().norm(), 1e-6);
 }
 

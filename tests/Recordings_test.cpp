@@ -11,6 +11,8 @@
 #include "lamp/evaluation/Relations.h"
 
 namespace lamp::test {
+
+using namespace evaluation;
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;

@@ -120,9 +120,9 @@ TEST_F(RegisterPair, JsonCanTakeThePlaceOfTheReport) {
 }
 
 TEST_F(RegisterPair, TheIniChoosesStages) {
-  const std::string ini = file("pair.ini", "[pipeline]\ninitial_aligner = Identity\n");
+  const std::string ini = file("pair.ini", "[pipeline]\ninitial_aligner = IdentityGuess\n");
   ASSERT_EQ(run({source_, target_, "--config", ini}).exit_code, 0);
-  EXPECT_EQ(json()["hypotheses"][0]["aligner"], "Identity");
+  EXPECT_EQ(json()["hypotheses"][0]["aligner"], "IdentityGuess");
   EXPECT_FALSE(json()["accepted"]) << "120 degrees are too far for GICP alone";
   ASSERT_EQ(json()["target_T_source"].size(), 16u) << "what was refused is shown";
 }

@@ -1,5 +1,6 @@
 # Fails if a file under modules/<module>/{include,src} includes a header of a module that the table in
-# docs/architecture.md does not allow it, or if that table and the folders in modules/ differ.
+# docs/architecture.md does not allow it, if that table and the folders in modules/ differ, or if the headers of
+# two modules define a class of the same name in the same namespace (the linker would take either for both).
 #
 #   cmake -D ROOT=<folder with docs/ and modules/> -P check_architecture.cmake
 cmake_minimum_required(VERSION 3.22)
@@ -40,6 +41,21 @@ foreach(module IN LISTS folders)
         list(APPEND faults "${file}: ${module} may not use ${used} (docs/architecture.md)")
       endif()
     endforeach()
+    if(file MATCHES "\\.h$")
+      file(STRINGS ${ROOT}/${file} lines REGEX "^(namespace|class|struct|enum) .*{$")
+      foreach(line IN LISTS lines)
+        if(line MATCHES "^namespace ([a-z_:]+)")
+          set(namespace ${CMAKE_MATCH_1})
+        elseif(line MATCHES "^(enum class|class|struct|enum) ([A-Za-z0-9_]+)")
+          set(name ${namespace}::${CMAKE_MATCH_2})
+          string(MAKE_C_IDENTIFIER ${name} key)
+          if(DEFINED module_of_${key} AND NOT module_of_${key} STREQUAL module)
+            list(APPEND faults "${file}: ${name} is defined in module ${module_of_${key}} too")
+          endif()
+          set(module_of_${key} ${module})
+        endif()
+      endforeach()
+    endif()
   endforeach()
 endforeach()
 

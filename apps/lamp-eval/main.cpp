@@ -1,3 +1,5 @@
 #include "lamp/evaluation/EvalApp.h"
 
-int main(int argc, char** argv) { return lamp::evalApp(argc, argv); }
+int main(int argc, char** argv) {
+  return lamp::evaluation::evalApp(argc, argv);
+}

@@ -1,3 +1,5 @@
-#include "lamp/base_station/RegisterApp.h"
+#include "lamp/slam_app/RegisterApp.h"
 
-int main(int argc, char** argv) { return lamp::registerApp(argc, argv); }
+int main(int argc, char** argv) {
+  return lamp::registerApp(argc, argv);
+}

@@ -1,3 +1,5 @@
 #include "lamp/simulation/SimApp.h"
 
-int main(int argc, char** argv) { return lamp::simApp(argc, argv); }
+int main(int argc, char** argv) {
+  return lamp::simulation::simApp(argc, argv);
+}

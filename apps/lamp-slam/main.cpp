@@ -1,3 +1,5 @@
-#include "lamp/base_station/SlamApp.h"
+#include "lamp/slam_app/SlamApp.h"
 
-int main(int argc, char** argv) { return lamp::slamApp(argc, argv); }
+int main(int argc, char** argv) {
+  return lamp::slamApp(argc, argv);
+}

@@ -21,12 +21,12 @@ std::vector<StampedPose> FinishedRun::odometry(const std::string& robot) const {
   return readTum(folder_.odometryTrajectory(robot));
 }
 
-std::vector<StampedPose> FinishedRun::keyframes(const std::string& robot) const {
-  return readTum(folder_.keyframeTrajectory(robot));
+std::vector<StampedPose> FinishedRun::keyNodes(const std::string& robot) const {
+  return readTum(folder_.keyNodeTrajectory(robot));
 }
 
 Pose3 FinishedRun::startOf(const std::string& b, const std::string& a) const {
-  return keyframes(a).front().pose.inverse() * keyframes(b).front().pose;
+  return keyNodes(a).front().pose.inverse() * keyNodes(b).front().pose;
 }
 
 bool FinishedRun::has(const std::string& file) const {

@@ -24,7 +24,7 @@ class FinishedRun {
   CsvTable loops() const { return CsvTable::fromFile(folder_.loops()); }
   std::vector<StampedPose> trajectory(const std::string& robot) const;
   std::vector<StampedPose> odometry(const std::string& robot) const;
-  std::vector<StampedPose> keyframes(const std::string& robot) const;
+  std::vector<StampedPose> keyNodes(const std::string& robot) const;
   /** Where `b` started, seen from the start of `a`. */
   Pose3 startOf(const std::string& b, const std::string& a) const;
   bool has(const std::string& file) const;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "BoxWorld.h"
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 
 namespace lamp::test {
 

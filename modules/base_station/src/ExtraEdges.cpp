@@ -9,17 +9,17 @@ namespace lamp {
 
 namespace {
 
-using Packets = std::map<KeyframeId, KeyframePacket>;
+using Packets = std::map<KeyNodeId, KeyNodePacket>;
 
 Eigen::Vector3d pointFrom(const std::vector<double>& values) {
   return values.empty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(values.data());
 }
 
 /** Dead reckoning of a robot from its previous key node to this one. */
-TrajectoryInterpolator odometryBefore(const KeyframePacket& packet, const Packets& packets) {
+TrajectoryInterpolator odometryBefore(const KeyNodePacket& packet, const Packets& packets) {
   std::vector<StampedPose> path;
   if (packet.id.index > 0) {
-    const KeyframePacket& previous = packets.at({packet.id.robot, packet.id.index - 1});
+    const KeyNodePacket& previous = packets.at({packet.id.robot, packet.id.index - 1});
     path.push_back({previous.stamp, previous.odom_T_base});
   }
   path.insert(path.end(), packet.passed_scans.begin(), packet.passed_scans.end());
@@ -46,7 +46,7 @@ ExtraEdges::ExtraEdges(const std::vector<RobotOptions>& robots,
   }
 }
 
-bool ExtraEdges::add(KeyframeId id, const KeyframeExtras& extras, const Packets& packets,
+bool ExtraEdges::add(KeyNodeId id, const KeyNodeExtras& extras, const Packets& packets,
                      PoseGraph& graph) {
   const size_t before = graph.edges().size();
   if (extras.gravity)
@@ -70,12 +70,12 @@ bool ExtraEdges::add(KeyframeId id, const KeyframeExtras& extras, const Packets&
 /** Adds the edge if the other robot's key node at or after the reading is there. */
 bool ExtraEdges::close(const OpenRange& range, const Packets& packets, PoseGraph& graph) const {
   const Carrier& carrier = carriers_.at(range.reading.beacon);
-  const std::vector<KeyframeId>& nodes = graph.robotNodes(carrier.robot);
+  const std::vector<KeyNodeId>& nodes = graph.robotNodes(carrier.robot);
   const auto next =
       std::lower_bound(nodes.begin(), nodes.end(), range.reading.stamp,
-                       [&](KeyframeId id, double stamp) { return graph.node(id).stamp < stamp; });
+                       [&](KeyNodeId id, double stamp) { return graph.node(id).stamp < stamp; });
   if (next == nodes.end()) return false;
-  const KeyframePacket& packet = packets.at(*next);
+  const KeyNodePacket& packet = packets.at(*next);
   const Pose3 odom_T_then = odometryBefore(packet, packets).at(range.reading.stamp);
   const Eigen::Vector3d to_p_beacon =
       packet.odom_T_base.inverse() * (odom_T_then * carrier.base_p_beacon);

@@ -1,4 +1,4 @@
-#include "LandmarkTable.h"
+#include "lamp/base_station/LandmarkTable.h"
 
 #include <cmath>
 #include <set>

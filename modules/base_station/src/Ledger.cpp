@@ -41,7 +41,7 @@ void Ledger::addVerdictChange(EdgeIndex edge, size_t round, Verdict before, cons
       {round, rows_[by_edge_.at(edge)].loop_id, before, after.verdict, after.weight, after.chi2});
 }
 
-std::vector<const LedgerRow*> Ledger::attempts(KeyframeId from, KeyframeId to) const {
+std::vector<const LedgerRow*> Ledger::attempts(KeyNodeId from, KeyNodeId to) const {
   std::vector<const LedgerRow*> result;
   if (const auto found = by_pair_.find({from, to}); found != by_pair_.end())
     for (const size_t i : found->second) result.push_back(&rows_[i]);

@@ -119,8 +119,8 @@ class ActionRow {
     action.from = required("from");
     action.to = required("to");
     const Eigen::Quaterniond q(number("qw"), number("qx"), number("qy"), number("qz"));
-    constexpr double kMostDeviation = 1e-3;
-    if (std::abs(q.norm() - 1) > kMostDeviation) fail("qx qy qz qw is no unit quaternion");
+    constexpr double kMaxDeviation = 1e-3;
+    if (std::abs(q.norm() - 1) > kMaxDeviation) fail("qx qy qz qw is no unit quaternion");
     action.rotation = q;
     action.position << number("x"), number("y"), number("z");
     action.sigma_m = positive("sigma_m");

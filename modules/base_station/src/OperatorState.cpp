@@ -10,9 +10,9 @@ const char* const kDone = "done";
 
 /** The key node of a name. \throws std::runtime_error if there is none: the same whether its robot
  * has been read already or not, since reading runs ahead by chance. */
-KeyframeId keyNode(const std::string& name, const RobotTable& robots, const PoseGraph& graph) {
+KeyNodeId keyNode(const std::string& name, const RobotTable& robots, const PoseGraph& graph) {
   try {
-    const KeyframeId id = robots.parse(name);
+    const KeyNodeId id = robots.parse(name);
     if (graph.contains(id)) return id;
   } catch (const std::runtime_error&) {
   }
@@ -59,8 +59,8 @@ std::string OperatorState::applyToLoop(const OperatorAction& action, const Robot
   if (action.loop_id) {
     loop = ledger.accepted(*action.loop_id);
   } else {
-    const KeyframeId from = keyNode(action.from, robots, graph);
-    const KeyframeId to = keyNode(action.to, robots, graph);
+    const KeyNodeId from = keyNode(action.from, robots, graph);
+    const KeyNodeId to = keyNode(action.to, robots, graph);
     for (const auto& [a, b] : {Pair(from, to), Pair(to, from)})
       for (const LedgerRow* attempt : ledger.attempts(a, b))
         if (attempt->edge) loop = attempt;
@@ -153,7 +153,7 @@ std::vector<bool> OperatorState::admitted(const PoseGraph& graph) const {
   return admitted;
 }
 
-bool OperatorState::maySearch(KeyframeId from, KeyframeId to) const {
+bool OperatorState::maySearch(KeyNodeId from, KeyNodeId to) const {
   if (vetoed_.count({from, to})) return false;
   return from.robot == to.robot || (!ignored_.count(from.robot) && !ignored_.count(to.robot));
 }

@@ -7,8 +7,8 @@
 
 #include <set>
 
-#include "Summary.h"
 #include "TestTeam.h"
+#include "lamp/base_station/LoopCounts.h"
 #include "lamp/core/GraphFiles.h"
 
 namespace lamp {
@@ -18,7 +18,7 @@ class ScriptedCandidates : public CandidateGenerator {
   DEFINE_MRPT_OBJECT(ScriptedCandidates, lamp)
  public:
   void visit(OptionVisitor&) override {}
-  std::vector<LoopClosureCandidate> propose(const PoseGraph&, KeyframeId current) const override {
+  std::vector<LoopClosureCandidate> propose(const PoseGraph&, KeyNodeId current) const override {
     std::vector<LoopClosureCandidate> candidates;
     const auto add = [&](uint32_t to) {
       candidates.push_back({{current.robot, 0}, {current.robot, to}, "Scripted", 0});
@@ -69,7 +69,7 @@ double worstInlier(const BaseStation& base, const Team& team) {
   double worst = 0;
   for (const Edge& edge : base.graph().edges()) {
     if (edge.type != EdgeType::kLoopClosure || edge.verdict != Verdict::kInlier) continue;
-    const auto truth = [&](KeyframeId id) {
+    const auto truth = [&](KeyNodeId id) {
       return team.drives[id.robot.value].truth[id.index].pose;
     };
     const Pose3 error = edge.from_T_to.inverse() * truth(edge.from).inverse() * truth(edge.to);
@@ -96,11 +96,11 @@ TEST_P(TeamOfTwo, ClosesLoopsAndComesNearerToTheTruthThanOdometry) {
   EXPECT_LT(worstInlier(base, team), 0.15);
   for (const RobotId robot : {kA, kB}) {
     const RobotDrive& driven = team.drives[robot.value];
-    const double before = rmse(driven.all_scans, base.odometryTrajectory(robot));
-    const double after = rmse(driven.truth, base.keyframeTrajectory(robot));
+    const double before = rmse(driven.all_scans, base.tracks().odometryTrajectory(robot));
+    const double after = rmse(driven.truth, keyNodeTrajectory(base.graph(), robot));
     EXPECT_GT(before, 0.5) << "the drift must be worth correcting";
     EXPECT_LT(after, 0.25) << "robot " << robot.value << ", odometry " << before;
-    EXPECT_LT(rmse(driven.all_scans, base.trajectory(robot)), 0.3);
+    EXPECT_LT(rmse(driven.all_scans, base.tracks().trajectory(base.graph(), robot)), 0.3);
   }
 }
 
@@ -110,10 +110,10 @@ TEST(BaseStation, TrajectoriesHaveOnePoseAScanAndPassThroughTheKeyNodes) {
   team.sendTo(station.base);
   for (const RobotId robot : {kA, kB}) {
     const RobotDrive& driven = team.drives[robot.value];
-    const auto trajectory = station.base.trajectory(robot);
+    const auto trajectory = station.base.tracks().trajectory(station.base.graph(), robot);
     ASSERT_EQ(trajectory.size(), driven.all_scans.size());
     size_t next_key = 0;
-    const auto key_nodes = station.base.keyframeTrajectory(robot);
+    const auto key_nodes = keyNodeTrajectory(station.base.graph(), robot);
     for (size_t i = 0; i < trajectory.size(); ++i) {
       EXPECT_EQ(trajectory[i].stamp, driven.all_scans[i].stamp);
       if (next_key == key_nodes.size() || trajectory[i].stamp != key_nodes[next_key].stamp)
@@ -134,7 +134,7 @@ TEST(BaseStation, OdometryTrajectoryStartsAtTheStartPose) {
   Station station(teamIni());
   team.sendTo(station.base);
   const auto& first = team.drives[kB.value].packets.front();
-  EXPECT_LT((station.base.odometryTrajectory(kB).front().pose.matrix() -
+  EXPECT_LT((station.base.tracks().odometryTrajectory(kB).front().pose.matrix() -
              first.prior->world_T_base.matrix())
                 .norm(),
             1e-9);
@@ -159,7 +159,7 @@ TEST(BaseStation, RobotsWithoutAStartPoseAreNotCompared) {
   EXPECT_EQ(station.base.graph().components().size(), 2u);
   // Each one's map is in the frame of its own first key node.
   for (const RobotId robot : {kA, kB}) {
-    const Pose3 start = station.base.keyframeTrajectory(robot).front().pose;
+    const Pose3 start = keyNodeTrajectory(station.base.graph(), robot).front().pose;
     EXPECT_LT((start.matrix() - Pose3::Identity().matrix()).norm(), 1e-6);
   }
 }
@@ -170,7 +170,8 @@ TEST(BaseStation, WithoutGeneratorsOdometryIsTheMap) {
   team.sendTo(station.base);
   EXPECT_EQ(station.base.candidates(), 0u);
   EXPECT_EQ(station.base.optimizations(), 0u);
-  const auto odometry = station.base.odometryTrajectory(kA), map = station.base.trajectory(kA);
+  const auto odometry = station.base.tracks().odometryTrajectory(kA),
+             map = station.base.tracks().trajectory(station.base.graph(), kA);
   ASSERT_EQ(odometry.size(), map.size());
   for (size_t i = 0; i < map.size(); ++i)
     EXPECT_LT((odometry[i].pose.matrix() - map[i].pose.matrix()).norm(), 1e-9);
@@ -195,7 +196,7 @@ TEST(BaseStation, ResultsDoNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(with_one, resultWith(2));
 }
 
-using Pairs = std::set<std::pair<KeyframeId, KeyframeId>>;
+using Pairs = std::set<std::pair<KeyNodeId, KeyNodeId>>;
 
 Pairs pairs(const BaseStation& base) {
   Pairs result;
@@ -204,18 +205,36 @@ Pairs pairs(const BaseStation& base) {
   return result;
 }
 
-/** A refiner that refuses everything leaves the poses, so that all candidates are known. */
-SlamConfig refusingConfig(const std::string& base_station) {
-  SlamConfig config = configFrom(teamIni("", base_station));
-  config.stages.refiner = std::make_shared<OneAnswer>();
-  return config;
+/** The config's computation with another refiner. */
+LoopClosureComputation computationWith(const SlamConfig& config,
+                                       std::shared_ptr<const Refiner> refiner) {
+  const auto aligners = config.make<InitialAligner>();
+  const auto verifiers = config.make<Verifier>();
+  return {{aligners.begin(), aligners.end()},
+          std::move(refiner),
+          {verifiers.begin(), verifiers.end()},
+          config.registration.ambiguity};
 }
+
+/** A refiner that refuses everything leaves the poses, so that all candidates are known. */
+struct RefusingStation : Station {
+  explicit RefusingStation(const std::string& base_station)
+      : RefusingStation(configFrom(teamIni("", base_station))) {}
+
+ private:
+  explicit RefusingStation(const SlamConfig& c) : Station(c, setupOf(c)) {}
+  static BaseStationSetup setupOf(const SlamConfig& c) {
+    BaseStationSetup setup = c.makeBaseStationSetup();
+    setup.computation = computationWith(c, std::make_shared<OneAnswer>());
+    return setup;
+  }
+};
 
 TEST(BaseStation, FinishDrainsTheQueue) {
   const Team team;
-  Station all(refusingConfig("closures_per_round = 0\n"));
+  RefusingStation all("closures_per_round = 0\n");
   team.sendTo(all.base);
-  Station one(refusingConfig("closures_per_round = 1\n"));
+  RefusingStation one("closures_per_round = 1\n");
   team.send(one.base);
   const size_t before = one.base.ledger().rows().size();
   EXPECT_LE(before, one.base.graph().nodes().size()) << "one for each key node at most";
@@ -229,7 +248,7 @@ TEST(BaseStation, FinishDrainsTheQueue) {
 
 TEST(BaseStation, FinishStopsWhenInterrupted) {
   const Team team;
-  Station station(refusingConfig("closures_per_round = 1\n"));
+  RefusingStation station("closures_per_round = 1\n");
   team.send(station.base);
   const size_t before = station.base.ledger().rows().size();
   const std::atomic<bool> interrupted{true};
@@ -253,7 +272,7 @@ TEST(BaseStation, SurvivesFinishWithoutAnything) {
   const std::atomic<bool> interrupted{false};
   station.base.finish(interrupted);
   EXPECT_TRUE(station.base.graph().nodes().empty());
-  EXPECT_TRUE(station.base.trajectory(kA).empty());
+  EXPECT_TRUE(station.base.tracks().trajectory(station.base.graph(), kA).empty());
 }
 
 /** Twelve key nodes, 2 m apart, with one scan between each two; the scan of key node k has k + 1
@@ -263,13 +282,14 @@ class ScriptedLoops : public testing::Test {
  protected:
   void run(const std::string& options, const std::string& optimizer = "Lm",
            double loop_variance = 1e-6) {
-    SlamConfig config = configFrom("[pipeline]\noptimizer = " + optimizer +
-                                   "\nverifiers =\nexporters =\n[base_station]\n" + options);
-    config.stages.candidates = {std::make_shared<ScriptedCandidates>()};
+    const SlamConfig config = configFrom("[pipeline]\noptimizer = " + optimizer +
+                                         "\nverifiers =\nexporters =\n[base_station]\n" + options);
+    BaseStationSetup setup = config.makeBaseStationSetup();
+    setup.candidates = {std::make_shared<ScriptedCandidates>()};
     const auto refiner = std::make_shared<OneAnswer>();
     refiner->variance = loop_variance;
-    config.stages.refiner = refiner;
-    station_ = std::make_unique<Station>(std::move(config));
+    setup.computation = computationWith(config, refiner);
+    station_ = std::make_unique<Station>(config, std::move(setup));
     for (uint32_t k = 0; k < 12; ++k) station_->base.receive(packet(k));
     const std::atomic<bool> interrupted{false};
     station_->base.finish(interrupted);
@@ -286,12 +306,12 @@ class ScriptedLoops : public testing::Test {
     return variances.asDiagonal();
   }
 
-  static KeyframePacket packet(uint32_t k) {
+  static KeyNodePacket packet(uint32_t k) {
     auto scan = std::make_shared<Scan>();
     scan->points.resize(k + 1, Eigen::Vector3f::Ones());
     scan->sensor.resize(k + 1, 0);
     scan->sensors.push_back({"lidar", Eigen::Vector3d::Zero()});
-    KeyframePacket packet;
+    KeyNodePacket packet;
     packet.id = {kA, k};
     packet.stamp = k;
     packet.odom_T_base = planarPose(2.0 * k, 0, 0);
@@ -312,7 +332,7 @@ const char* const kRetryFrom1m =
 
 TEST_F(ScriptedLoops, ARefusedPairIsTriedAgainOnlyWhenItsGuessMoved) {
   run(kRetryFrom2m);
-  EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[11].pose.translation().x(), 16, 0.01);
+  EXPECT_NEAR(keyNodeTrajectory(station_->base.graph(), kA)[11].pose.translation().x(), 16, 0.01);
   const auto far = attempts(6);
   ASSERT_EQ(far.size(), 2u);
   EXPECT_NEAR(far[0]->guess.target_T_source.translation().x(), 12, 1e-9);
@@ -341,7 +361,7 @@ TEST_F(ScriptedLoops, FinishTriesWhatItsOwnOptimizationBroughtNear) {
 
 TEST_F(ScriptedLoops, ScansBetweenKeyNodesShareTheirCorrection) {
   run(kRetryFrom2m);
-  const auto trajectory = station_->base.trajectory(kA);
+  const auto trajectory = station_->base.tracks().trajectory(station_->base.graph(), kA);
   ASSERT_EQ(trajectory.size(), 23u);
   for (size_t i = 0; i < trajectory.size(); ++i) {
     const double odometry = static_cast<double>(i);  // 1 m a scan
@@ -367,7 +387,7 @@ TEST_F(ScriptedLoops, ARejectedLoopIsVerifiedButNoInlier) {
   EXPECT_EQ(counts.inliers, 0u) << "6 m off, and neither it nor odometry is that uncertain";
   const PoseGraph& graph = station_->base.graph();
   EXPECT_EQ(countLoops(graph, graph.components().at(0)).within_robots, 0u);
-  EXPECT_NEAR(station_->base.keyframeTrajectory(kA)[11].pose.translation().x(), 22, 0.01);
+  EXPECT_NEAR(keyNodeTrajectory(station_->base.graph(), kA)[11].pose.translation().x(), 22, 0.01);
 }
 
 /** What an operator does to the loop 0 - 11 after the run. */
@@ -393,7 +413,9 @@ class OperatorAfterScriptedLoops : public ScriptedLoops {
     return action;
   }
   size_t theLoop() const { return attempts(11).at(0)->loop_id; }
-  double lastX() const { return station_->base.keyframeTrajectory(kA)[11].pose.translation().x(); }
+  double lastX() const {
+    return keyNodeTrajectory(station_->base.graph(), kA)[11].pose.translation().x();
+  }
 
   RobotTable robots_;
 };
@@ -431,7 +453,7 @@ TEST_F(OperatorAfterScriptedLoops, OnlyARemovedPairIsTriedAgainWhenItsGuessMoves
 TEST_F(OperatorAfterScriptedLoops, ALoopByHandIsPinned) {
   run(kRetryFrom2m);
   const auto fifthX = [&] {
-    return station_->base.keyframeTrajectory(kA)[5].pose.translation().x();
+    return keyNodeTrajectory(station_->base.graph(), kA)[5].pose.translation().x();
   };
   EXPECT_EQ(station_->base.apply(byHand("A:0", "A:5", 3), robots_), "done");
   EXPECT_NEAR(fifthX(), 3, 0.01);

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "LandmarkTable.h"
 #include "TestTeam.h"
+#include "lamp/base_station/LandmarkTable.h"
 #include "lamp/core/Trajectory.h"
 
 namespace lamp {
@@ -19,7 +19,7 @@ constexpr int kAnchorNumber = 5, kRobotNumber = 6;
 void equip(Team& team) {
   for (RobotDrive& drive : team.drives)
     for (size_t i = 0; i < drive.packets.size(); ++i) {
-      KeyframePacket& packet = drive.packets[i];
+      KeyNodePacket& packet = drive.packets[i];
       const Pose3& truth = drive.truth[i].pose;
       const Eigen::Vector3d seen = truth.inverse() * kArtifact;
       if (seen.norm() < 5)
@@ -59,8 +59,8 @@ TEST(ExtraEdges, LandmarksAndAnchorsTieTheMap) {
     EXPECT_EQ(graph.landmarks()[*graph.findLandmark("gate")].world_p, kAnchor);
     for (const RobotDrive& drive : team.drives) {
       const RobotId robot = drive.end.robot;
-      EXPECT_LT(rmse(drive.truth, station.base.keyframeTrajectory(robot)),
-                0.5 * rmse(drive.all_scans, station.base.odometryTrajectory(robot)));
+      EXPECT_LT(rmse(drive.truth, keyNodeTrajectory(station.base.graph(), robot)),
+                0.5 * rmse(drive.all_scans, station.base.tracks().odometryTrajectory(robot)));
     }
 
     RobotTable robots;
@@ -81,8 +81,8 @@ TEST(ExtraEdges, ADistanceBetweenRobotsWaitsForTheOtherOne) {
   const SlamConfig config = configFrom(beaconIni());
   ExtraEdges extra(config.robots, config.beacons);
   PoseGraph graph;
-  std::map<KeyframeId, KeyframePacket> packets;
-  const auto receive = [&](const KeyframePacket& packet, const KeyframeExtras& extras) {
+  std::map<KeyNodeId, KeyNodePacket> packets;
+  const auto receive = [&](const KeyNodePacket& packet, const KeyNodeExtras& extras) {
     Node node;
     node.id = packet.id;
     node.stamp = packet.stamp;
@@ -93,7 +93,7 @@ TEST(ExtraEdges, ADistanceBetweenRobotsWaitsForTheOtherOne) {
   const auto& a = team.drives[0].packets;
   const auto& b = team.drives[1].packets;
   const double stamp = 0.5 * (b[1].stamp + b[2].stamp) + 0.1;
-  KeyframeExtras extras;
+  KeyNodeExtras extras;
   extras.ranges = {{stamp, kRobotNumber, kAntenna, 7.0, 0.1},
                    {stamp, 4, kAntenna, 1.0, 0.1}};  // its own beacon
   EXPECT_FALSE(receive(a[0], extras));

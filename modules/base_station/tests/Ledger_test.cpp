@@ -59,7 +59,7 @@ class LedgerTest : public testing::Test {
       }
   }
 
-  static LedgerRow row(KeyframeId from, KeyframeId to) {
+  static LedgerRow row(KeyNodeId from, KeyNodeId to) {
     LedgerRow row;
     row.round = 4;
     row.rank = 2;
@@ -72,7 +72,7 @@ class LedgerTest : public testing::Test {
     return row;
   }
 
-  LedgerRow acceptedRow(KeyframeId from, KeyframeId to) {
+  LedgerRow acceptedRow(KeyNodeId from, KeyNodeId to) {
     Edge edge;
     edge.type = EdgeType::kLoopClosure;
     edge.from = from;

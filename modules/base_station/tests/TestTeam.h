@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lamp/base_station/BaseStation.h"
+#include "lamp/slam_app/SlamConfig.h"
 
 namespace lamp::test {
 
@@ -78,7 +79,7 @@ class Hall {
 
 /** What one robot sends, and where it truly was. */
 struct RobotDrive {
-  std::vector<KeyframePacket> packets;
+  std::vector<KeyNodePacket> packets;
   RobotEnd end;
   std::vector<StampedPose> truth;      ///< of the key nodes
   std::vector<StampedPose> all_scans;  ///< truth at every scan
@@ -125,7 +126,7 @@ inline RobotDrive drive(const DriveOptions& options) {
         passed.push_back({stamp, odom_T_base});
         continue;
       }
-      KeyframePacket packet;
+      KeyNodePacket packet;
       packet.id = {options.robot, static_cast<uint32_t>(result.packets.size())};
       packet.stamp = stamp;
       packet.odom_T_base = odom_T_base;
@@ -181,12 +182,12 @@ struct Team {
   }
 
   void send(BaseStation& base) const {
-    std::vector<const KeyframePacket*> packets;
+    std::vector<const KeyNodePacket*> packets;
     for (const RobotDrive& of_robot : drives)
-      for (const KeyframePacket& packet : of_robot.packets) packets.push_back(&packet);
+      for (const KeyNodePacket& packet : of_robot.packets) packets.push_back(&packet);
     std::stable_sort(packets.begin(), packets.end(),
                      [](const auto* a, const auto* b) { return a->stamp < b->stamp; });
-    for (const KeyframePacket* packet : packets) base.receive(*packet);
+    for (const KeyNodePacket* packet : packets) base.receive(*packet);
     for (const RobotDrive& of_robot : drives) base.receive(of_robot.end);
   }
 
@@ -206,14 +207,18 @@ inline double rmse(const std::vector<StampedPose>& truth, const std::vector<Stam
 
 /** A base station with its timer. */
 struct Station {
-  explicit Station(SlamConfig c) : config(std::move(c)), base(config, timer) {
+  explicit Station(const std::string& ini) : Station(configFrom(ini)) {}
+  Station(SlamConfig c, BaseStationSetup setup)
+      : config(std::move(c)), base(std::move(setup), timer) {
     timer.setMinLoggingLevel(mrpt::system::LVL_ERROR);
   }
-  explicit Station(const std::string& ini) : Station(configFrom(ini)) {}
 
   SlamConfig config;
   mrpt::system::CTimeLogger timer;
   BaseStation base;
+
+ private:
+  explicit Station(const SlamConfig& c) : Station(c, c.makeBaseStationSetup()) {}
 };
 
 /** Small searches, so that tests are quick. */

@@ -55,11 +55,11 @@ char RobotTable::nextLetter() const {
   throw std::runtime_error("more than 25 robots: no letter is left for graph files");
 }
 
-std::string RobotTable::format(KeyframeId id) const {
+std::string RobotTable::format(KeyNodeId id) const {
   return name(id.robot) + ":" + std::to_string(id.index);
 }
 
-KeyframeId RobotTable::parse(const std::string& text) const {
+KeyNodeId RobotTable::parse(const std::string& text) const {
   const size_t colon = text.rfind(':');
   const std::string digits = colon == std::string::npos ? "" : text.substr(colon + 1);
   const char* end = digits.data() + digits.size();
@@ -71,11 +71,11 @@ KeyframeId RobotTable::parse(const std::string& text) const {
   return {*robot, index};
 }
 
-uint64_t RobotTable::symbol(KeyframeId id) const {
+uint64_t RobotTable::symbol(KeyNodeId id) const {
   return (static_cast<uint64_t>(letter(id.robot)) << kSymbolLetterShift) | id.index;
 }
 
-KeyframeId RobotTable::fromSymbol(uint64_t symbol) const {
+KeyNodeId RobotTable::fromSymbol(uint64_t symbol) const {
   const char letter = static_cast<char>(symbol >> kSymbolLetterShift);
   const uint64_t index = symbol & ((uint64_t{1} << kSymbolLetterShift) - 1);
   if (index > std::numeric_limits<uint32_t>::max())

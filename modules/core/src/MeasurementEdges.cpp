@@ -10,7 +10,7 @@ double informationOf(double sigma) {
   return 1.0 / (sigma * sigma);
 }
 
-Edge unaryEdge(EdgeType type, KeyframeId id) {
+Edge unaryEdge(EdgeType type, KeyNodeId id) {
   Edge edge;
   edge.type = type;
   edge.from = edge.to = id;
@@ -26,7 +26,7 @@ void setRange(Edge& edge, double range_m, double sigma_m) {
 
 }  // namespace
 
-Edge gravityEdge(KeyframeId id, const Eigen::Vector3d& base_up, double sigma_rad) {
+Edge gravityEdge(KeyNodeId id, const Eigen::Vector3d& base_up, double sigma_rad) {
   Edge edge = unaryEdge(EdgeType::kGravity, id);
   const Eigen::Vector3d up = base_up.normalized();
   edge.from_T_to.linear() =
@@ -36,7 +36,7 @@ Edge gravityEdge(KeyframeId id, const Eigen::Vector3d& base_up, double sigma_rad
   return edge;
 }
 
-Edge positionEdge(KeyframeId id, LandmarkIndex landmark, const Eigen::Vector3d& from_p_landmark,
+Edge positionEdge(KeyNodeId id, LandmarkIndex landmark, const Eigen::Vector3d& from_p_landmark,
                   const Eigen::Matrix3d& covariance) {
   Edge edge = unaryEdge(EdgeType::kPosition, id);
   edge.landmark = landmark;
@@ -46,7 +46,7 @@ Edge positionEdge(KeyframeId id, LandmarkIndex landmark, const Eigen::Vector3d& 
   return edge;
 }
 
-Edge bearingRangeEdge(KeyframeId id, LandmarkIndex landmark, const Eigen::Vector3d& from_p_sensor,
+Edge bearingRangeEdge(KeyNodeId id, LandmarkIndex landmark, const Eigen::Vector3d& from_p_sensor,
                       const Eigen::Vector3d& from_p_landmark, std::optional<double> sigma_rad,
                       std::optional<double> sigma_m) {
   Edge edge = unaryEdge(EdgeType::kBearingRange, id);
@@ -62,7 +62,7 @@ Edge bearingRangeEdge(KeyframeId id, LandmarkIndex landmark, const Eigen::Vector
   return edge;
 }
 
-Edge rangeEdge(KeyframeId id, LandmarkIndex landmark, const Eigen::Vector3d& from_p_sensor,
+Edge rangeEdge(KeyNodeId id, LandmarkIndex landmark, const Eigen::Vector3d& from_p_sensor,
                double range_m, double sigma_m) {
   Edge edge = unaryEdge(EdgeType::kRange, id);
   edge.landmark = landmark;
@@ -71,7 +71,7 @@ Edge rangeEdge(KeyframeId id, LandmarkIndex landmark, const Eigen::Vector3d& fro
   return edge;
 }
 
-Edge robotRangeEdge(KeyframeId from, const Eigen::Vector3d& from_p_sensor, KeyframeId to,
+Edge robotRangeEdge(KeyNodeId from, const Eigen::Vector3d& from_p_sensor, KeyNodeId to,
                     const Eigen::Vector3d& to_p_sensor, double range_m, double sigma_m) {
   Edge edge = unaryEdge(EdgeType::kRobotRange, from);
   edge.to = to;

@@ -15,7 +15,7 @@ namespace lamp {
 namespace {
 
 /** A reference of LZF takes 3 bytes and stands for at most 264: no data grow more. */
-constexpr size_t kMostGrowth = 88;
+constexpr size_t kMaxGrowth = 88;
 
 /** Where the values of each axis begin, if each field has `elements` values of `count` numbers. */
 std::array<size_t, 3> offsetsOf(const PcdHeader& header, size_t elements,
@@ -52,7 +52,7 @@ void PcdFile::checkSize() const {
   // The last line of a text may lack its end.
   const size_t there = header_.data == PcdData::kAscii    ? data_bytes_ + 1
                        : header_.data == PcdData::kBinary ? data_bytes_
-                                                          : data_bytes_ * kMostGrowth;
+                                                          : data_bytes_ * kMaxGrowth;
   if (header_.points > there / least_bytes)
     fail("is too short for the " + std::to_string(header_.points) +
          " points that its header announces");

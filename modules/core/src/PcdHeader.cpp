@@ -30,7 +30,7 @@ const std::array<std::string, 10> kKeywords = {"VERSION", "FIELDS", "SIZE",     
 
 /** Beyond this a number of points or of a field's numbers is damage; products of a few stay below
  * 2^64. */
-constexpr double kMostOfAnything = 1e9;
+constexpr double kMaxOfAnything = 1e9;
 
 }  // namespace
 
@@ -92,7 +92,7 @@ class PcdHeaderReader {
 
   size_t number(const std::string& keyword, const std::string& text) const {
     double value = 0;
-    if (!parseDouble(text, value) || !(value >= 0 && value <= kMostOfAnything) ||
+    if (!parseDouble(text, value) || !(value >= 0 && value <= kMaxOfAnything) ||
         value != std::floor(value))
       fail(keyword, "'" + text + "' is no number of anything");
     return static_cast<size_t>(value);

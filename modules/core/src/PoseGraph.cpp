@@ -12,7 +12,7 @@ namespace lamp {
 
 namespace {
 
-std::string describe(KeyframeId id) {
+std::string describe(KeyNodeId id) {
   return std::to_string(id.robot.value) + ":" + std::to_string(id.index);
 }
 
@@ -101,8 +101,8 @@ std::optional<LandmarkIndex> PoseGraph::findLandmark(const std::string& name) co
   return found->second;
 }
 
-const std::vector<KeyframeId>& PoseGraph::robotNodes(RobotId robot) const {
-  static const std::vector<KeyframeId> kNone;
+const std::vector<KeyNodeId>& PoseGraph::robotNodes(RobotId robot) const {
+  static const std::vector<KeyNodeId> kNone;
   const auto found = by_robot_.find(robot);
   return found == by_robot_.end() ? kNone : found->second;
 }
@@ -151,7 +151,7 @@ std::vector<Component> PoseGraph::components() const {
   for (auto& [root, component] : by_root) {
     std::sort(component.nodes.begin(), component.nodes.end());
     std::set<RobotId> robots;
-    for (const KeyframeId id : component.nodes) robots.insert(id.robot);
+    for (const KeyNodeId id : component.nodes) robots.insert(id.robot);
     component.robots.assign(robots.begin(), robots.end());
     components.push_back(std::move(component));
   }

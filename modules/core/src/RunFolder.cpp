@@ -38,13 +38,13 @@ void RunFolder::createSubfolders() const {
 std::string RunFolder::trajectory(const std::string& robot) const {
   return root_ + "/trajectories/" + robot + ".tum";
 }
-std::string RunFolder::keyframeTrajectory(const std::string& robot) const {
+std::string RunFolder::keyNodeTrajectory(const std::string& robot) const {
   return root_ + "/trajectories/" + robot + ".keyframes.tum";
 }
 std::string RunFolder::odometryTrajectory(const std::string& robot) const {
   return root_ + "/trajectories/" + robot + ".odometry.tum";
 }
-std::string RunFolder::keyframes(const std::string& robot) const {
+std::string RunFolder::keyNodes(const std::string& robot) const {
   return root_ + "/keyframes/" + robot + ".rawlog";
 }
 std::string RunFolder::mapStem(size_t component_rank) const {

@@ -40,7 +40,7 @@ PoseGraph exampleGraph(bool planar) {
       node.planar = planar;
       graph.addNode(node);
     }
-  const auto add = [&](EdgeType type, KeyframeId from, KeyframeId to, Verdict verdict) {
+  const auto add = [&](EdgeType type, KeyNodeId from, KeyNodeId to, Verdict verdict) {
     Edge edge;
     edge.type = type;
     edge.from = from;

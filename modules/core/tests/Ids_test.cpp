@@ -55,7 +55,7 @@ TEST(RobotTable, RefusesNamesAndLettersThatClashOrAreMalformed) {
 TEST(RobotTable, TextFormReadsBack) {
   const RobotTable robots = twoRobots();
   for (const uint32_t index : {0u, 7u, 1000000000u, std::numeric_limits<uint32_t>::max()}) {
-    const KeyframeId id{RobotId{1}, index};
+    const KeyNodeId id{RobotId{1}, index};
     EXPECT_EQ(robots.format(id), "spot-2:" + std::to_string(index));
     EXPECT_EQ(robots.parse(robots.format(id)), id);
   }
@@ -70,10 +70,10 @@ TEST(RobotTable, ParseNamesWhatItRefuses) {
 
 TEST(RobotTable, SymbolsAreThoseOfGtsam) {
   const RobotTable robots = twoRobots();
-  const KeyframeId id{RobotId{1}, 42};
+  const KeyNodeId id{RobotId{1}, 42};
   EXPECT_EQ(robots.symbol(id), 0x620000000000002AULL);  // gtsam::Symbol('b', 42)
   EXPECT_EQ(robots.fromSymbol(0x620000000000002AULL), id);
-  const KeyframeId last{RobotId{0}, std::numeric_limits<uint32_t>::max()};
+  const KeyNodeId last{RobotId{0}, std::numeric_limits<uint32_t>::max()};
   EXPECT_EQ(robots.fromSymbol(robots.symbol(last)), last);
 }
 
@@ -83,12 +83,12 @@ TEST(RobotTable, RefusesSymbolsOfNobodyAndIndicesAbove32Bits) {
   EXPECT_THAT(thrownBy([&] { robots.fromSymbol(0x6100000100000000ULL); }), HasSubstr("32 bits"));
 }
 
-TEST(KeyframeId, OrdersByRobotThenIndex) {
-  const KeyframeId a0{RobotId{0}, 0}, a9{RobotId{0}, 9}, b1{RobotId{1}, 1};
+TEST(KeyNodeId, OrdersByRobotThenIndex) {
+  const KeyNodeId a0{RobotId{0}, 0}, a9{RobotId{0}, 9}, b1{RobotId{1}, 1};
   EXPECT_LT(a0, a9);
   EXPECT_LT(a9, b1);
   EXPECT_NE(a0, a9);
-  EXPECT_EQ(std::unordered_set<KeyframeId>({a0, a9, b1, a9}).size(), 3u);
+  EXPECT_EQ(std::unordered_set<KeyNodeId>({a0, a9, b1, a9}).size(), 3u);
 }
 
 TEST(RobotName, IsMadeOfAFileStem) {

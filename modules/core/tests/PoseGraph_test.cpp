@@ -16,7 +16,7 @@ Node node(RobotId robot, uint32_t index, bool planar = false) {
   return n;
 }
 
-Edge edge(EdgeType type, KeyframeId from, KeyframeId to) {
+Edge edge(EdgeType type, KeyNodeId from, KeyNodeId to) {
   Edge e;
   e.type = type;
   e.from = from;
@@ -36,7 +36,7 @@ PoseGraph threeRobots() {
   return graph;
 }
 
-EdgeIndex addLoop(PoseGraph& graph, KeyframeId from, KeyframeId to,
+EdgeIndex addLoop(PoseGraph& graph, KeyNodeId from, KeyNodeId to,
                   Verdict verdict = Verdict::kInlier) {
   Edge loop = edge(EdgeType::kLoopClosure, from, to);
   loop.verdict = verdict;
@@ -56,9 +56,9 @@ TEST(PoseGraph, KeepsNodesAndParallelEdgesInOrder) {
   EXPECT_EQ(second, 4u);
   EXPECT_EQ(reverse, 5u);
   EXPECT_EQ(graph.edges().size(), 6u);
-  EXPECT_EQ(graph.edges()[reverse].from, (KeyframeId{kA, 2}));
+  EXPECT_EQ(graph.edges()[reverse].from, (KeyNodeId{kA, 2}));
   EXPECT_EQ(graph.place({kB, 1}), 4u);
-  EXPECT_EQ(graph.node({kB, 1}).id, (KeyframeId{kB, 1}));
+  EXPECT_EQ(graph.node({kB, 1}).id, (KeyNodeId{kB, 1}));
   EXPECT_TRUE(graph.contains({kC, 0}));
   EXPECT_FALSE(graph.contains({kC, 1}));
   EXPECT_THROW(graph.place({kC, 1}), std::out_of_range);
@@ -67,7 +67,7 @@ TEST(PoseGraph, KeepsNodesAndParallelEdgesInOrder) {
 TEST(PoseGraph, ListsTheNodesOfARobotByIndex) {
   PoseGraph graph;
   for (const uint32_t index : {2u, 0u, 1u}) graph.addNode(node(kB, index));
-  EXPECT_EQ(graph.robotNodes(kB), (std::vector<KeyframeId>{{kB, 0}, {kB, 1}, {kB, 2}}));
+  EXPECT_EQ(graph.robotNodes(kB), (std::vector<KeyNodeId>{{kB, 0}, {kB, 1}, {kB, 2}}));
   EXPECT_TRUE(graph.robotNodes(kA).empty());
   EXPECT_EQ(graph.robots(), std::vector<RobotId>{kB});
 }
@@ -109,7 +109,7 @@ TEST(PoseGraph, RefusesWrongInformationButTakesASingularOne) {
 TEST(PoseGraph, ComponentsAreSortedLargestFirst) {
   const auto components = threeRobots().components();
   ASSERT_EQ(components.size(), 3u);
-  EXPECT_EQ(components[0].nodes, (std::vector<KeyframeId>{{kA, 0}, {kA, 1}, {kA, 2}}));
+  EXPECT_EQ(components[0].nodes, (std::vector<KeyNodeId>{{kA, 0}, {kA, 1}, {kA, 2}}));
   EXPECT_EQ(components[1].robots, std::vector<RobotId>{kB});
   EXPECT_EQ(components[2].robots, std::vector<RobotId>{kC});
 }

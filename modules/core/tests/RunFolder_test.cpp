@@ -69,9 +69,9 @@ TEST(RunFolder, PathsAreThoseOfTheDocumentation) {
   const RunFolder run("out");
   EXPECT_EQ(run.loops(), "out/loops.csv");
   EXPECT_EQ(run.trajectory("husky1"), "out/trajectories/husky1.tum");
-  EXPECT_EQ(run.keyframeTrajectory("husky1"), "out/trajectories/husky1.keyframes.tum");
+  EXPECT_EQ(run.keyNodeTrajectory("husky1"), "out/trajectories/husky1.keyframes.tum");
   EXPECT_EQ(run.odometryTrajectory("husky1"), "out/trajectories/husky1.odometry.tum");
-  EXPECT_EQ(run.keyframes("husky1"), "out/keyframes/husky1.rawlog");
+  EXPECT_EQ(run.keyNodes("husky1"), "out/keyframes/husky1.rawlog");
   EXPECT_EQ(run.mapStem(0), "out/maps/map");
   EXPECT_EQ(run.mapStem(1), "out/maps/map_2");
 }

@@ -5,7 +5,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::vector<Pose3> align(Alignment alignment, const std::vector<AlignmentMember>
   return transforms;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -5,7 +5,7 @@
 #include "TrajectoryPlots.h"
 #include "lamp/core/Csv.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -121,4 +121,4 @@ void drawBoxPlots(const std::vector<RunEvaluation>& runs, Gnuplot& gnuplot) {
   gnuplot.draw("ate_boxes", width_px, 700, script, boxData(series, width));
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 std::array<uint8_t, 3> viridis(double value) {
   const double place = std::clamp(value, 0.0, 1.0) * (kViridis.size() - 1);
@@ -16,4 +16,4 @@ std::array<uint8_t, 3> viridis(double value) {
   return color;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -12,7 +12,7 @@
 #include "lamp/core/Progress.h"
 #include "lamp/core/Version.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -135,4 +135,4 @@ int evalApp(int argc, char** argv) {
   return runProgram(app, argc, argv, [&] { run(arguments); });
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

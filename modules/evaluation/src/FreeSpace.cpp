@@ -5,14 +5,14 @@
 #include <limits>
 #include <stdexcept>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
 using Eigen::Vector3f;
 using Eigen::Vector3i;
 
-constexpr double kMostVoxels = 8e9;  ///< two bits each: 2 GB
+constexpr double kMaxVoxels = 8e9;   ///< two bits each: 2 GB
 constexpr double kNearGround = 0.4;  ///< metres; less than any robot is high
 
 /** Voxels of a box, with one bit each for `surface` and for `reached`. */
@@ -23,7 +23,7 @@ class VoxelBox {
     size_ = (max.cast<double>() / voxel_m).array().floor().cast<int>().matrix() - first_ +
             Vector3i::Ones();
     const double count = size_.cast<double>().prod();
-    if (count > kMostVoxels)
+    if (count > kMaxVoxels)
       throw std::runtime_error("the world has " + std::to_string(count / 1e9) +
                                " thousand million voxels, too many for this measure");
     surface_.resize(static_cast<size_t>(count));
@@ -127,4 +127,4 @@ void forEachFreeVoxel(const SurfaceSamples& surface, const std::vector<Vector3f>
         if (box.isReached(cell) && !touchesSurface(cell, box)) take(box.center(cell));
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -7,7 +7,7 @@
 #include "lamp/core/Files.h"
 #include "lamp/core/GraphFiles.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -63,4 +63,4 @@ G2oEdges readG2oEdges(const std::string& path) {
   return edges;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -8,7 +8,7 @@
 
 #include "lamp/core/Geometry.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** An edge of a g2o file. */
 struct G2oEdge {
@@ -21,4 +21,4 @@ using G2oEdges = std::map<std::pair<uint32_t, uint32_t>, std::vector<G2oEdge>>;
  * \throws std::runtime_error with file and line if an edge is malformed. */
 G2oEdges readG2oEdges(const std::string& path);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

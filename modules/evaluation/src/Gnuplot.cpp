@@ -14,7 +14,7 @@
 
 #include "lamp/core/Files.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::string lineColor(size_t index) {
   return std::string("'") + kColors[index % kColors.size()] + "'";
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

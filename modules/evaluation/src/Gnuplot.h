@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** Draws with gnuplot, and leaves its scripts and data beside the pictures, so that they can be
  * restyled and drawn again: `gnuplot NAME.gp` in their folder. */
@@ -31,4 +31,4 @@ class Gnuplot {
 /** Colours of robots and runs, that people with colour blindness can tell apart (Okabe, Ito). */
 std::string lineColor(size_t index);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -9,7 +9,7 @@
 
 #include "lamp/evaluation/Truth.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -53,4 +53,4 @@ KeyedScans readKeyedScans(const std::string& path) {
   return scans;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

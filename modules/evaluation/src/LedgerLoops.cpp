@@ -7,7 +7,7 @@
 #include "G2oEdges.h"
 #include "lamp/core/Csv.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -108,4 +108,4 @@ std::vector<LedgerLoop> readLedger(const RunFolder& run) {
   return loops;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -9,7 +9,7 @@
 #include "lamp/core/ScanOverlap.h"
 #include "lamp/evaluation/KeyedScans.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -55,7 +55,7 @@ TrueNodes trueNodes(const RunFiles& run, const TruthFolder& truth,
     const std::vector<LedgerNode> nodes = nodesOf(robot.name, loops);
     const TrueTrajectory path(readTum(truth.trajectory(robot.name)), robot.planar);
     for (const LedgerNode& node : nodes) all[node.graph_id].world_T_base = path.at(node.stamp);
-    addScans(nodes, run.folder.keyframes(robot.name), robot.planar, all, warnings);
+    addScans(nodes, run.folder.keyNodes(robot.name), robot.planar, all, warnings);
   }
   return all;
 }
@@ -101,4 +101,4 @@ LoopEvaluation evaluateLoops(const RunFiles& run, const TruthFolder& truth) {
   return evaluation;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -121,4 +121,4 @@ LoopScore scoreLoops(const std::vector<const JudgedLoop*>& loops) {
   return score;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -12,7 +12,7 @@
 #include "lamp/core/Files.h"
 #include "lamp/core/PlyVertices.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -90,4 +90,4 @@ double errorScale(const MapEvaluation& map) {
   return 10 * decade;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

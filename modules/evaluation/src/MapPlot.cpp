@@ -7,15 +7,15 @@
 #include "TrajectoryPlots.h"
 #include "lamp/core/Csv.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
-constexpr size_t kMostPoints = 300000;
+constexpr size_t kMaxPoints = 300000;
 
 /** Every n-th point, least error first. */
 std::vector<size_t> chosenPoints(const MapEvaluation& map) {
-  const size_t step = map.points.size() / kMostPoints + 1;
+  const size_t step = map.points.size() / kMaxPoints + 1;
   std::vector<size_t> chosen;
   for (size_t i = 0; i < map.points.size(); i += step) chosen.push_back(i);
   std::stable_sort(chosen.begin(), chosen.end(),
@@ -51,4 +51,4 @@ void drawMapError(const RunEvaluation& run, const MapEvaluation& map, const std:
                data);
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

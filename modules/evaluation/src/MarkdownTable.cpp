@@ -6,7 +6,7 @@
 #include "ReportRows.h"
 #include "lamp/core/Csv.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -143,4 +143,4 @@ std::string markdownReport(const Json& report) {
   return text + "\n";
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

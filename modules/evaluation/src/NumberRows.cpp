@@ -7,7 +7,7 @@
 #include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 void readNumberRows(const std::string& path, size_t columns, const std::string& meaning,
                     const std::function<void(const std::vector<double>&)>& take) {
@@ -31,4 +31,4 @@ void readNumberRows(const std::string& path, size_t columns, const std::string& 
   if (empty) throw std::runtime_error(path + ": holds no '" + meaning + "'");
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

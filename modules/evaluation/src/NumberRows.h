@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** Calls `take` for each row of a text file of numbers between spaces; `#` starts a comment.
  *  \param meaning of a row, for messages.
@@ -13,4 +13,4 @@ namespace lamp {
 void readNumberRows(const std::string& path, size_t columns, const std::string& meaning,
                     const std::function<void(const std::vector<double>&)>& take);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

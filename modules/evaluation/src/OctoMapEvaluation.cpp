@@ -13,7 +13,7 @@
 #include "lamp/core/KdTree.h"
 #include "lamp/evaluation/FreeSpace.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -133,4 +133,4 @@ OctoMapEvaluation evaluateOctoMap(const std::string& path, const Pose3& truth_T_
   return evaluation;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

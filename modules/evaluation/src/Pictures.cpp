@@ -6,7 +6,7 @@
 #include "TrajectoryPlots.h"
 #include "lamp/core/Ids.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 std::vector<std::string> drawPictures(const std::vector<RunEvaluation>& runs,
                                       const std::string& folder) {
@@ -28,4 +28,4 @@ std::string filePrefix(const std::vector<RunEvaluation>& runs, size_t run) {
   return std::to_string(run + 1) + "_" + robotNameFromStem(runs[run].name) + "_";
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -8,7 +8,7 @@
 #include "lamp/core/Csv.h"
 #include "lamp/evaluation/Truth.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -90,4 +90,4 @@ RelationErrors relationErrors(const std::vector<StampedPose>& trajectory,
   return result;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

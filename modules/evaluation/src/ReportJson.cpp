@@ -2,7 +2,7 @@
 
 #include "lamp/core/Version.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -164,4 +164,4 @@ Json reportJson(const std::vector<RunEvaluation>& runs, const EvaluationInput& i
   return json;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

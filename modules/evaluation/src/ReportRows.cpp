@@ -1,6 +1,6 @@
 #include "ReportRows.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 const std::vector<ReportRow> kTrajectoryRows = {
     {"ATE RMSE [m]", "{result/ate_rmse_m:3} ({odometry/ate_rmse_m:3})"},
@@ -52,4 +52,4 @@ const std::vector<ReportRow> kRelationRows = {
     {"rotation [deg]", "{rotation_mean_deg:3} ± {rotation_std_deg:3}"},
 };
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** One row of the table. The pattern shows figures of a run's JSON: `{path:decimals}`, or
  * `{path%decimals}` for a share in percent. */
@@ -14,4 +14,4 @@ struct ReportRow {
 extern const std::vector<ReportRow> kTrajectoryRows, kStageRows, kLoopErrorRows, kMapRows,
     kOctoMapRows, kRelationRows;
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

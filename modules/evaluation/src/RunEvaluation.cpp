@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -115,4 +115,4 @@ RunEvaluation evaluateRun(const std::string& root, const EvaluationInput& input,
   return evaluation;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -7,7 +7,7 @@
 
 #include "lamp/core/Files.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -71,4 +71,4 @@ RunFiles RunFiles::open(const std::string& root) {
   return run;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

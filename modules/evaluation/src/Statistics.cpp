@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
@@ -32,4 +32,4 @@ Statistics Statistics::of(std::vector<double> values) {
   return result;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

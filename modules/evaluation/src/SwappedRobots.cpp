@@ -5,7 +5,7 @@
 #include "lamp/evaluation/Alignment.h"
 #include "lamp/evaluation/TrajectoryError.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -53,4 +53,4 @@ void refuseSwappedRobots(const std::vector<NamedTrajectory>& robots, const Truth
             "own: were files exchanged?");
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

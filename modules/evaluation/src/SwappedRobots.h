@@ -5,7 +5,7 @@
 #include "lamp/evaluation/RunFiles.h"
 #include "lamp/evaluation/TimeJoin.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 struct NamedTrajectory {
   RunFiles::Robot robot;
@@ -17,4 +17,4 @@ struct NamedTrajectory {
  * figures would be nonsense. */
 void refuseSwappedRobots(const std::vector<NamedTrajectory>& robots, const TruthFolder& truth);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -5,7 +5,7 @@
 
 #include "lamp/core/Csv.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -35,4 +35,4 @@ JoinedTrajectory joinInTime(const std::vector<StampedPose>& estimate, const True
   return joined;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

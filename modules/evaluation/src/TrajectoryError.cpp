@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -82,4 +82,4 @@ Drift drift(const std::vector<JoinedPose>& poses, double segment_m) {
   return result;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

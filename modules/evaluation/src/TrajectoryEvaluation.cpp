@@ -6,7 +6,7 @@
 #include "SwappedRobots.h"
 #include "lamp/core/Csv.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -150,4 +150,4 @@ TrajectoryEvaluation evaluateTrajectories(const RunFiles& run, const TruthFolder
   return all;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -5,7 +5,7 @@
 
 #include "lamp/core/Csv.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -152,4 +152,4 @@ void drawErrorOverDistance(const RunEvaluation& run, const std::string& prefix, 
                data);
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -5,7 +5,7 @@
 #include "Gnuplot.h"
 #include "lamp/evaluation/RunEvaluation.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** `<prefix>trajectories_top` and `_side`: all robots against the truth, from above and along y. */
 void drawTrajectories(const RunEvaluation& run, const std::string& prefix, Gnuplot& gnuplot);
@@ -23,4 +23,4 @@ bool needsLogarithm(double small_max, double large_max);
 constexpr const char* kLogarithmicError =
     "set logscale y\nset yrange [0.001:*]\nset format y '%g'\n";
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

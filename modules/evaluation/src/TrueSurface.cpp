@@ -7,7 +7,7 @@
 
 #include "lamp/core/PlyVertices.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 SurfaceSamples SurfaceSamples::fromPly(const std::string& path) {
   const PlyVertices file(path);
@@ -40,4 +40,4 @@ float TrueSurface::distance(const Eigen::Vector3f& point) const {
                                                                  : along_normal;
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

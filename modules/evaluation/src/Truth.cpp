@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::optional<Pose3> TrueTrajectory::at(double stamp) const {
   return interpolator_.at(stamp);
 }
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

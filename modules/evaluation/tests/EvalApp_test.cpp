@@ -9,7 +9,7 @@
 #include "TestClouds.h"
 #include "TestRuns.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 namespace {
 
 using namespace test;
@@ -187,4 +187,4 @@ TEST_F(EvalApp, WhatCannotBeReadOrWrittenIsAnErrorWithItsName) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::evaluation

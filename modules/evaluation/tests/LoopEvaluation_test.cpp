@@ -12,7 +12,7 @@
 #include "lamp/core/GraphFiles.h"
 #include "lamp/evaluation/KeyedScans.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 namespace {
 
 using namespace test;
@@ -93,7 +93,7 @@ class Ledger : public testing::Test {
       scans[stamp] = wallSeenFrom(x);
     }
     run_.addRobot(name, path, path);
-    writeKeyedScans(run_.folder().keyframes(name), scans);
+    writeKeyedScans(run_.folder().keyNodes(name), scans);
   }
   LoopEvaluation evaluate(const std::string& rows) const {
     writeTextFile(run_.folder().loops(), kHeader + rows);
@@ -179,7 +179,7 @@ TEST_F(Ledger, KeptLoopsAreJudgedWhereTheyClaimToKnow) {
 
 TEST_F(Ledger, MissingTruthAndScansMakePairsUnknown) {
   const std::string rows = row(0, 1, "a:0", "b:1", "verified", pose(1, 0, 0), "inlier");
-  std::filesystem::remove(run_.folder().keyframes("b"));
+  std::filesystem::remove(run_.folder().keyNodes("b"));
   LoopEvaluation e = evaluate(rows);
   EXPECT_EQ(e.all.kept.unknown_pairs, 1u);
   EXPECT_EQ(e.all.kept.right, 1u);
@@ -264,4 +264,4 @@ TEST(KeyedScans, AreInTheBaseFrameAndADamagedFileGivesItsBeginning) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::evaluation

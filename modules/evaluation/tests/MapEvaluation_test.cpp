@@ -7,7 +7,7 @@
 #include "TestRuns.h"
 #include "lamp/core/PlyVertices.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 namespace {
 
 using namespace test;
@@ -120,4 +120,4 @@ TEST(SurfaceSamples, SeenIsOptionalAndNormalsAreNot) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::evaluation

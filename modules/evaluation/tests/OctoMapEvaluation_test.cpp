@@ -12,7 +12,7 @@
 #include "TestRuns.h"
 #include "lamp/evaluation/FreeSpace.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 namespace {
 
 using namespace test;
@@ -174,4 +174,4 @@ TEST(FreeSpace, ASlantedWallIsWatertight) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::evaluation

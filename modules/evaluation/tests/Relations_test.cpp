@@ -5,7 +5,7 @@
 
 #include "TestRuns.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 namespace {
 
 using namespace test;
@@ -77,4 +77,4 @@ TEST(Relations, StampsOfTheRecordingBecomeThoseOfTheRelations) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::evaluation

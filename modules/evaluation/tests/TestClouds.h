@@ -8,6 +8,8 @@
 
 namespace lamp::test {
 
+using namespace evaluation;
+
 /** Samples in the middle of 0.1 m squares of a level rectangle; the normal points up or down. */
 inline void addLevel(float x0, float x1, float y0, float y1, float z, float up,
                      SurfaceSamples& samples) {

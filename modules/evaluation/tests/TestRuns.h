@@ -16,6 +16,8 @@
 
 namespace lamp::test {
 
+using namespace evaluation;
+
 constexpr double kDegree = M_PI / 180.0;
 
 /** What the call throws, or an empty string. */

@@ -5,7 +5,7 @@
 
 #include "TestRuns.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 namespace {
 
 using namespace test;
@@ -289,4 +289,4 @@ TEST(TruthFolder, MayBeASubfolderAndMustHoldTrajectories) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -7,7 +7,7 @@ namespace lamp {
 namespace {
 
 /** If no odometry comes, memory must not grow. */
-constexpr size_t kMostWaiting = 10000;
+constexpr size_t kMaxWaiting = 10000;
 
 LandmarkSighting moved(LandmarkSighting sighting, const Pose3& T) {
   sighting.base_p_sensor = T * sighting.base_p_sensor;
@@ -38,7 +38,7 @@ void ExtrasCollector::observe(const InputObservation& observation) {
   if (const auto inertial = inertialFromObservation(observation))
     if (const auto gravity = gravity_detector_.observe(observation.stamp, *inertial))
       waiting_.emplace_back(*gravity);
-  while (waiting_.size() > kMostWaiting) waiting_.pop_front();
+  while (waiting_.size() > kMaxWaiting) waiting_.pop_front();
 }
 
 void ExtrasCollector::advanceTo(double stamp, OdometrySource& odometry) {
@@ -57,9 +57,9 @@ void ExtrasCollector::place(const LandmarkSighting& sighting) {
   if (!is_new && distance(sighting) < distance(found->second)) found->second = sighting;
 }
 
-KeyframeExtras ExtrasCollector::take(const Pose3& odom_T_base) {
+KeyNodeExtras ExtrasCollector::take(const Pose3& odom_T_base) {
   const Pose3 base_T_odom = odom_T_base.inverse();
-  KeyframeExtras extras;
+  KeyNodeExtras extras;
   for (const auto& [name, sighting] : sightings_)
     extras.sightings.push_back(moved(sighting, base_T_odom));
   for (const auto& [beacon, range] : ranges_) extras.ranges.push_back(moved(range, base_T_odom));

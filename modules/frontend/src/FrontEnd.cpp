@@ -72,14 +72,14 @@ FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
       voxel_filter_(options.voxel),
       extras_(options.gravity) {}
 
-std::vector<KeyframePacket> FrontEnd::observe(const InputObservation& observation) {
+std::vector<KeyNodePacket> FrontEnd::observe(const InputObservation& observation) {
   odometry_->observe(observation);
   extras_.observe(observation);
   if (auto scan = assembler_->observe(observation)) enqueue(std::move(*scan));
   return processCoveredScans();
 }
 
-std::vector<KeyframePacket> FrontEnd::advanceTo(double stamp) {
+std::vector<KeyNodePacket> FrontEnd::advanceTo(double stamp) {
   if (auto scan = assembler_->advanceTo(stamp)) enqueue(std::move(*scan));
   return processCoveredScans();
 }
@@ -93,8 +93,8 @@ void FrontEnd::enqueue(ScanParts scan) {
   waiting_.push_back(std::move(scan));
 }
 
-std::vector<KeyframePacket> FrontEnd::processCoveredScans() {
-  std::vector<KeyframePacket> packets;
+std::vector<KeyNodePacket> FrontEnd::processCoveredScans() {
+  std::vector<KeyNodePacket> packets;
   while (!waiting_.empty() && odometry_->covers(waiting_.front().stamp)) {
     if (auto packet = processScan(waiting_.front())) packets.push_back(std::move(*packet));
     waiting_.pop_front();
@@ -102,9 +102,9 @@ std::vector<KeyframePacket> FrontEnd::processCoveredScans() {
   return packets;
 }
 
-std::vector<KeyframePacket> FrontEnd::finish() {
+std::vector<KeyNodePacket> FrontEnd::finish() {
   if (auto scan = assembler_->finish()) enqueue(std::move(*scan));
-  std::vector<KeyframePacket> packets;
+  std::vector<KeyNodePacket> packets;
   for (const ScanParts& parts : waiting_) {
     if (!odometry_->covers(parts.stamp - kMaxExtrapolationS))
       ++counts_.without_odometry;
@@ -118,10 +118,10 @@ std::vector<KeyframePacket> FrontEnd::finish() {
 
 RobotEnd FrontEnd::end() {
   return {robot_, std::move(passed_scans_),
-          last_key_ ? extras_.take(last_key_->pose) : KeyframeExtras()};
+          last_key_ ? extras_.take(last_key_->pose) : KeyNodeExtras()};
 }
 
-std::optional<KeyframePacket> FrontEnd::processScan(const ScanParts& parts) {
+std::optional<KeyNodePacket> FrontEnd::processScan(const ScanParts& parts) {
   extras_.advanceTo(parts.stamp, *odometry_);
   const Pose3 odom_T_base = odometry_->poseAt(parts.stamp);
   if (last_scan_pose_) path_since_key_.add(last_scan_pose_->inverse() * odom_T_base);
@@ -169,8 +169,8 @@ void FrontEnd::appendScan(const InputObservation& observation, const Pose3& base
   }
 }
 
-KeyframePacket FrontEnd::makePacket(double stamp, const Pose3& odom_T_base, Scan scan) {
-  KeyframePacket packet;
+KeyNodePacket FrontEnd::makePacket(double stamp, const Pose3& odom_T_base, Scan scan) {
+  KeyNodePacket packet;
   packet.id = {robot_, static_cast<uint32_t>(counts_.key_nodes++)};
   packet.stamp = stamp;
   packet.odom_T_base = odom_T_base;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
 /** By latitude, height and bias of the sensor. */
-constexpr double kMostDifference_m_s2 = 0.5;
+constexpr double kMaxDifference_m_s2 = 0.5;
 constexpr size_t kFewestSamples = 10;
 
 }  // namespace
@@ -43,7 +43,7 @@ std::optional<GravityReading> GravityDetector::observe(double stamp,
     halves[i / half] += window_[i].reading.specific_force / static_cast<double>(half);
   const Eigen::Vector3d mean = 0.5 * (halves[0] + halves[1]);
   const bool even = (halves[0] - halves[1]).norm() <= options_.gravity_max_change_m_s2 &&
-                    std::abs(mean.norm() - kGravity_m_s2) <= kMostDifference_m_s2;
+                    std::abs(mean.norm() - kGravity_m_s2) <= kMaxDifference_m_s2;
   if (!even) return std::nullopt;
   return GravityReading{stamp, mean.normalized(), options_.gravity_sigma_deg * M_PI / 180.0};
 }

@@ -52,7 +52,7 @@ TEST_F(ExtrasCollectorTest, OdometryCarriesReadingsToTheKeyNode) {
   observe(sighting(kStart + 2, 4, 6.0));
   observe(distance(kStart + 3, 9, 7.0));
   collector.advanceTo(kStart + 5, odometry);
-  const KeyframeExtras extras = collector.take(odometry.poseAt(kStart + 5));
+  const KeyNodeExtras extras = collector.take(odometry.poseAt(kStart + 5));
   ASSERT_EQ(extras.sightings.size(), 1u);
   EXPECT_EQ(extras.sightings[0].name, "artifact_4");
   EXPECT_LT((extras.sightings[0].base_p_landmark - Eigen::Vector3d(3, 0, 0)).norm(), 1e-6)
@@ -69,7 +69,7 @@ TEST_F(ExtrasCollectorTest, KeepsTheNearestSightingAndTheLastDistance) {
   for (const double range : {5.0, 3.0, 4.0}) observe(distance(kStart + 8 - range, 9, range));
   observe(distance(kStart + 5, 2, 1.0));
   collector.advanceTo(kStart + 6, odometry);
-  const KeyframeExtras extras = collector.take(odometry.poseAt(kStart + 6));
+  const KeyNodeExtras extras = collector.take(odometry.poseAt(kStart + 6));
   ASSERT_EQ(extras.sightings.size(), 1u);
   EXPECT_NEAR((extras.sightings[0].base_p_landmark - extras.sightings[0].base_p_sensor).norm(), 3,
               1e-6);
@@ -112,7 +112,7 @@ TEST_F(ExtrasCollectorTest, GravityTurnsWithTheRobot) {
     observe(wrapped(kStart + 1 + 0.01 * i, "imu", imu));
   }
   collector.advanceTo(kStart + 6, turning);
-  const KeyframeExtras extras = collector.take(turning.poseAt(kStart + 6));
+  const KeyNodeExtras extras = collector.take(turning.poseAt(kStart + 6));
   ASSERT_TRUE(extras.gravity);
   const Eigen::Vector3d expected =
       turning.poseAt(kStart + 6).linear().transpose() * Eigen::Vector3d::UnitZ();

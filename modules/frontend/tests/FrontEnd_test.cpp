@@ -32,7 +32,7 @@ class Drive {
   /** Stamps of all scans that are told of, in the order of telling. */
   std::vector<double> stamps() const {
     std::vector<double> result;
-    for (const KeyframePacket& packet : packets) {
+    for (const KeyNodePacket& packet : packets) {
       for (const StampedPose& scan : packet.passed_scans) result.push_back(scan.stamp);
       result.push_back(packet.stamp);
     }
@@ -41,12 +41,12 @@ class Drive {
   }
 
   FrontEnd front_end;
-  std::vector<KeyframePacket> packets;
+  std::vector<KeyNodePacket> packets;
   RobotEnd end;
 
  private:
-  void keep(std::vector<KeyframePacket> more) {
-    for (KeyframePacket& packet : more) packets.push_back(std::move(packet));
+  void keep(std::vector<KeyNodePacket> more) {
+    for (KeyNodePacket& packet : more) packets.push_back(std::move(packet));
   }
 };
 
@@ -67,8 +67,8 @@ TEST(FrontEnd, MakesKeyNodesEveryTwoMetres) {
   driveStraight(drive, 24);
   ASSERT_EQ(drive.packets.size(), 4u);
   for (uint32_t k = 0; k < 4; ++k) {
-    const KeyframePacket& packet = drive.packets[k];
-    EXPECT_EQ(packet.id, (KeyframeId{kRobot, k}));
+    const KeyNodePacket& packet = drive.packets[k];
+    EXPECT_EQ(packet.id, (KeyNodeId{kRobot, k}));
     EXPECT_NEAR(packet.stamp, kStart + 7 * k, 1e-6) << "2.1 m are the first 0.3 m beyond 2 m";
     EXPECT_NEAR(packet.odom_T_base.translation().x(), 2.1 * k, 1e-6);
     EXPECT_EQ(packet.scan->size(), somePoints().size());
@@ -213,7 +213,7 @@ TEST(FrontEnd, KeyedScansComeNearTheTargetSize) {
     drive.observe(cloud(kStart + i, hall));
   }
   ASSERT_EQ(drive.packets.size(), 3u);
-  for (const KeyframePacket& packet : drive.packets)
+  for (const KeyNodePacket& packet : drive.packets)
     EXPECT_NEAR(static_cast<double>(packet.scan->size()), 1200, 180);
 }
 
@@ -351,7 +351,7 @@ TEST(FrontEndKeyed, EveryStampIsAKeyNodeWithAllItsClouds) {
   drive.finish();
   ASSERT_EQ(drive.packets.size(), 3u) << "though the robot hardly moves";
   for (size_t i = 0; i < 3; ++i) {
-    const KeyframePacket& packet = drive.packets[i];
+    const KeyNodePacket& packet = drive.packets[i];
     EXPECT_NEAR(packet.stamp, kStart + static_cast<double>(i), 1e-6);
     EXPECT_NEAR(packet.odom_T_base.translation().x(), 0.1 * static_cast<double>(i), 1e-6);
     EXPECT_THAT(packet.passed_scans, IsEmpty());

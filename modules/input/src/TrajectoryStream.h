@@ -5,7 +5,7 @@
 
 #include "InputStream.h"
 #include "RobotRegistry.h"
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 
 namespace lamp {
 

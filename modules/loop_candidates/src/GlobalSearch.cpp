@@ -13,11 +13,11 @@ void GlobalSearchOptions::visit(OptionVisitor& v) {
 }
 
 std::vector<LoopClosureCandidate> GlobalSearch::propose(const PoseGraph& graph,
-                                                        KeyframeId current) const {
+                                                        KeyNodeId current) const {
   std::vector<LoopClosureCandidate> candidates;
   for (const RobotId robot : graph.robots()) {
     if (graph.shareFrame(robot, current.robot)) continue;
-    const std::vector<KeyframeId>& others = graph.robotNodes(robot);
+    const std::vector<KeyNodeId>& others = graph.robotNodes(robot);
     const size_t count = std::min(others.size(), static_cast<size_t>(options.max_per_robot));
     for (size_t k = 0; k < count; ++k) {
       const size_t place = (current.index + k * others.size() / count) % others.size();

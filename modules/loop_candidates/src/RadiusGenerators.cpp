@@ -22,15 +22,15 @@ uint32_t gap(uint32_t a, uint32_t b) {
 }  // namespace
 
 std::vector<LoopClosureCandidate> RadiusGenerator::propose(const PoseGraph& graph,
-                                                           KeyframeId current) const {
+                                                           KeyNodeId current) const {
   const Limits limits = this->limits();
   const Eigen::Vector3d here = graph.node(current).world_T_base.translation();
   std::vector<LoopClosureCandidate> candidates;
   for (const RobotId robot : graph.robots()) {
     const bool own = robot == current.robot;
     if (!own && !graph.shareFrame(robot, current.robot)) continue;
-    std::vector<std::pair<double, KeyframeId>> near;
-    for (const KeyframeId other : graph.robotNodes(robot)) {
+    std::vector<std::pair<double, KeyNodeId>> near;
+    for (const KeyNodeId other : graph.robotNodes(robot)) {
       if (own && gap(other.index, current.index) < static_cast<uint32_t>(limits.min_index_gap))
         continue;
       const double distance = (graph.node(other).world_T_base.translation() - here).norm();

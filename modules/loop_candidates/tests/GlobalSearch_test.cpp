@@ -31,9 +31,9 @@ TEST(GlobalSearch, TriesTheOtherRobotsWholeWay) {
   std::set<uint32_t> tried;
   for (uint32_t i = 0; i < 20; ++i) {
     const auto candidates = search.propose(graph, {kB, i});
-    std::set<KeyframeId> distinct;
+    std::set<KeyNodeId> distinct;
     for (const auto& candidate : candidates) {
-      EXPECT_EQ(candidate.to, (KeyframeId{kB, i}));
+      EXPECT_EQ(candidate.to, (KeyNodeId{kB, i}));
       EXPECT_EQ(candidate.from.robot, kA);
       distinct.insert(candidate.from);
       tried.insert(candidate.from.index);

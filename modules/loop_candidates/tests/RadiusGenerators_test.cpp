@@ -50,7 +50,7 @@ TEST(FixedRadius, TakesTheNearestBeyondTheIndexGap) {
   generator->options.max_per_robot = 2;
   const auto candidates = generator->propose(graph, {kA, 29});
   EXPECT_EQ(olderIndices(candidates), (std::vector<uint32_t>{19, 18}));
-  EXPECT_EQ(candidates[0].to, (KeyframeId{kA, 29}));
+  EXPECT_EQ(candidates[0].to, (KeyNodeId{kA, 29}));
   EXPECT_EQ(candidates[0].generator, "test");
 }
 
@@ -61,8 +61,8 @@ TEST(FixedRadius, AnOlderNodeFindsNewerOnes) {
   generator->options.radius_m = 20.5;
   const auto candidates = generator->propose(graph, {kA, 0});
   ASSERT_EQ(candidates.size(), 1u);
-  EXPECT_EQ(candidates[0].from, (KeyframeId{kA, 0}));
-  EXPECT_EQ(candidates[0].to, (KeyframeId{kA, 10}));
+  EXPECT_EQ(candidates[0].from, (KeyNodeId{kA, 0}));
+  EXPECT_EQ(candidates[0].to, (KeyNodeId{kA, 10}));
 }
 
 TEST(AdaptiveRadius, GrowsWithTheWayWithinARobot) {
@@ -91,7 +91,7 @@ TEST(AdaptiveRadius, GrowsWithTheCurrentIndexBetweenRobots) {
   EXPECT_TRUE(generator->propose(graph, {kB, 30}).empty());     // 0.2 m * 30 < 8 m
   const auto candidates = generator->propose(graph, {kB, 42});  // 0.2 m * 42 > 8 m
   ASSERT_EQ(candidates.size(), 3u);
-  EXPECT_EQ(candidates[0].from, (KeyframeId{kA, 42}));
+  EXPECT_EQ(candidates[0].from, (KeyNodeId{kA, 42}));
 }
 
 TEST(RadiusGenerators, RobotsWithoutACommonFrameAreNotCompared) {

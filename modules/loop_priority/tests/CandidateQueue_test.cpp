@@ -9,7 +9,7 @@ namespace {
 
 struct NoUncertainty : UncertaintyQuery {
   std::vector<std::optional<Matrix6d>> relativeCovariances(
-      KeyframeId, const std::vector<KeyframeId>& to) const override {
+      KeyNodeId, const std::vector<KeyNodeId>& to) const override {
     return std::vector<std::optional<Matrix6d>>(to.size());
   }
 };

@@ -16,8 +16,8 @@ namespace {
 constexpr size_t kBufferBytes = 1 << 20;
 
 bool anyIntensity(const ComponentMap& map) {
-  return std::any_of(map.keyframes.begin(), map.keyframes.end(), [](const MapKeyframe& keyframe) {
-    return keyframe.scan && keyframe.scan->hasIntensity();
+  return std::any_of(map.key_nodes.begin(), map.key_nodes.end(), [](const MapKeyNode& key_node) {
+    return key_node.scan && key_node.scan->hasIntensity();
   });
 }
 
@@ -30,10 +30,10 @@ std::string paddedHeader(const CloudFormat& format, size_t count, bool has_inten
   return format.header(count, has_intensity, std::string(longest - bare, ' '));
 }
 
-CloudPoint cloudPoint(const MapKeyframe& keyframe, size_t i, const Eigen::Vector3d& world) {
-  const float intensity = keyframe.scan->hasIntensity() ? keyframe.scan->intensity[i]
+CloudPoint cloudPoint(const MapKeyNode& key_node, size_t i, const Eigen::Vector3d& world) {
+  const float intensity = key_node.scan->hasIntensity() ? key_node.scan->intensity[i]
                                                         : std::numeric_limits<float>::quiet_NaN();
-  return {world.cast<float>(), robotColor(keyframe.id.robot), intensity};
+  return {world.cast<float>(), robotColor(key_node.id.robot), intensity};
 }
 
 }  // namespace
@@ -49,9 +49,9 @@ void writeCloud(const ComponentMap& map, double voxel_m, const CloudFormat& form
     file << paddedHeader(format, 0, has_intensity);
     size_t count = 0;
     std::string bytes;
-    forEachPoint(map, [&](const MapKeyframe& keyframe, size_t i, const Eigen::Vector3d& world) {
+    forEachPoint(map, [&](const MapKeyNode& key_node, size_t i, const Eigen::Vector3d& world) {
       if (voxels && !voxels->insert(world)) return;
-      format.append(cloudPoint(keyframe, i, world), has_intensity, bytes);
+      format.append(cloudPoint(key_node, i, world), has_intensity, bytes);
       ++count;
       if (bytes.size() < kBufferBytes) return;
       file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

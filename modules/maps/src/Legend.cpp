@@ -18,7 +18,7 @@ constexpr int kSwatch_px = 12;
 constexpr int kGap_px = 8;
 constexpr int kColumnGap_px = 28;
 constexpr double kBarShare = 0.15;
-constexpr double kLeastBar_px = 40, kMostBar_px = 250;
+constexpr double kLeastBar_px = 40, kMaxBar_px = 250;
 const mrpt::img::TColor kTextColor(50, 50, 50);
 
 int widthOf(const std::string& text) {
@@ -46,9 +46,9 @@ double roundLength(double length) {
 
 Legend::Legend(std::vector<LegendEntry> entries, const TopView& view, int width_px)
     : entries_(std::move(entries)), width_px_(width_px), pixel_m_(view.pixel_m) {
-  const double bar_px = std::clamp(kBarShare * view.width, kLeastBar_px, kMostBar_px);
+  const double bar_px = std::clamp(kBarShare * view.width, kLeastBar_px, kMaxBar_px);
   bar_m_ = roundLength(bar_px * pixel_m_);
-  const int room = width_px_ - static_cast<int>(kMostBar_px) - kColumnGap_px;
+  const int room = width_px_ - static_cast<int>(kMaxBar_px) - kColumnGap_px;
   int column = 0;
   for (const LegendEntry& entry : entries_) {
     const int width = kSwatch_px + kGap_px + widthOf(entry.text);
@@ -91,7 +91,7 @@ void Legend::drawScaleBar(mrpt::img::CImage& image, int right, int y0) const {
 std::vector<LegendEntry> legendOf(const ComponentMap& map) {
   std::map<RobotId, size_t> key_nodes;
   for (const MapTrack& track : map.tracks) key_nodes[track.robot];
-  for (const MapKeyframe& keyframe : map.keyframes) ++key_nodes[keyframe.id.robot];
+  for (const MapKeyNode& key_node : map.key_nodes) ++key_nodes[key_node.id.robot];
   std::vector<LegendEntry> entries;
   for (const auto& [robot, count] : key_nodes)
     entries.push_back(

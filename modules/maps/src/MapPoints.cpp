@@ -32,11 +32,11 @@ void checkScan(const Scan& scan, const std::string& owner) {
 }
 
 void checkMap(const ComponentMap& map) {
-  for (const MapKeyframe& keyframe : map.keyframes) {
+  for (const MapKeyNode& key_node : map.key_nodes) {
     const std::string owner =
-        "key node " + robotName(map, keyframe.id.robot) + ":" + std::to_string(keyframe.id.index);
-    if (!isFinite(keyframe.world_T_base)) refuse(owner, "has a pose that is not finite");
-    if (keyframe.scan) checkScan(*keyframe.scan, owner);
+        "key node " + robotName(map, key_node.id.robot) + ":" + std::to_string(key_node.id.index);
+    if (!isFinite(key_node.world_T_base)) refuse(owner, "has a pose that is not finite");
+    if (key_node.scan) checkScan(*key_node.scan, owner);
   }
   for (const MapTrack& track : map.tracks)
     for (const StampedPose& pose : track.poses)

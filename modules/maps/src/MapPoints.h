@@ -16,16 +16,16 @@ void checkMap(const ComponentMap& map);
 /** The same rules for one scan. \param owner names the key node in the message. */
 void checkScan(const Scan& scan, const std::string& owner);
 
-/** Calls `visit(keyframe, point index, world point)` for every point of every keyed scan, in key
+/** Calls `visit(key_node, point index, world point)` for every point of every keyed scan, in key
  * node order. Points that are not finite are passed over. */
 template <class Visitor>
 void forEachPoint(const ComponentMap& map, Visitor&& visit) {
-  for (const MapKeyframe& keyframe : map.keyframes) {
-    if (!keyframe.scan) continue;
-    for (size_t i = 0; i < keyframe.scan->size(); ++i) {
+  for (const MapKeyNode& key_node : map.key_nodes) {
+    if (!key_node.scan) continue;
+    for (size_t i = 0; i < key_node.scan->size(); ++i) {
       const Eigen::Vector3d point =
-          keyframe.world_T_base * keyframe.scan->points[i].template cast<double>();
-      if (point.allFinite()) visit(keyframe, i, point);
+          key_node.world_T_base * key_node.scan->points[i].template cast<double>();
+      if (point.allFinite()) visit(key_node, i, point);
     }
   }
 }

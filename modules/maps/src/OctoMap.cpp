@@ -34,8 +34,8 @@ std::vector<std::string> OctoMap::exportMap(const ComponentMap& map, const std::
   octomap::OcTree tree(options_.resolution_m);
   setSensorModel(options_, tree);
   OctreeScanInserter inserter(tree, options_.max_range_m);
-  for (const MapKeyframe& keyframe : map.keyframes)
-    if (keyframe.scan) inserter.insert(*keyframe.scan, keyframe.world_T_base);
+  for (const MapKeyNode& key_node : map.key_nodes)
+    if (key_node.scan) inserter.insert(*key_node.scan, key_node.world_T_base);
   tree.updateInnerOccupancy();
   tree.prune();
   if (inserter.raysOutOfBounds() > 0)

@@ -31,8 +31,8 @@ Color colorOf(Verdict verdict) {
 void drawPoints(const ComponentMap& map, const TopView& view, bool tint, mrpt::img::CImage& image,
                 int x0, int y0) {
   DensityImage density(view);
-  forEachPoint(map, [&](const MapKeyframe& keyframe, size_t, const Eigen::Vector3d& p) {
-    density.add(p, robotColor(keyframe.id.robot));
+  forEachPoint(map, [&](const MapKeyNode& key_node, size_t, const Eigen::Vector3d& p) {
+    density.add(p, robotColor(key_node.id.robot));
   });
   density.draw(image, x0, y0, tint);
 }

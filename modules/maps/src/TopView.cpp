@@ -20,8 +20,8 @@ using Box = Eigen::AlignedBox2d;
 
 size_t pointCount(const ComponentMap& map) {
   size_t count = 0;
-  for (const MapKeyframe& keyframe : map.keyframes)
-    if (keyframe.scan) count += keyframe.scan->size();
+  for (const MapKeyNode& key_node : map.key_nodes)
+    if (key_node.scan) count += key_node.scan->size();
   return count;
 }
 
@@ -37,7 +37,7 @@ Box boxOfPoints(const ComponentMap& map) {
   const size_t step = pointCount(map) / kSamples + 1;
   size_t k = 0;
   std::vector<float> xs, ys;
-  forEachPoint(map, [&](const MapKeyframe&, size_t, const Eigen::Vector3d& p) {
+  forEachPoint(map, [&](const MapKeyNode&, size_t, const Eigen::Vector3d& p) {
     if (k++ % step != 0) return;
     xs.push_back(static_cast<float>(p.x()));
     ys.push_back(static_cast<float>(p.y()));
@@ -54,8 +54,8 @@ Box boxOf(const ComponentMap& map) {
   for (const MapTrack& track : map.tracks)
     for (const StampedPose& pose : track.poses)
       box.extend(pose.pose.translation().head<2>().eval());
-  for (const MapKeyframe& keyframe : map.keyframes)
-    box.extend(keyframe.world_T_base.translation().head<2>().eval());
+  for (const MapKeyNode& key_node : map.key_nodes)
+    box.extend(key_node.world_T_base.translation().head<2>().eval());
   for (const MapLoop& loop : map.loops)
     for (const Eigen::Vector3d& end : {loop.from, loop.to}) box.extend(end.head<2>().eval());
   if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());

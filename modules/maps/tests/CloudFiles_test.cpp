@@ -169,7 +169,7 @@ TEST_P(CloudFiles, RefusesInvalidMapsAndNamesTheKeyNode) {
   const std::string folder = freshFolder();
   EXPECT_THAT(errorOf([&] { exportMap(test.map, 0, folder + "/map"); }), HasSubstr("spot2:0"));
 
-  test.map.keyframes.clear();
+  test.map.key_nodes.clear();
   const auto scan = makeScan({{1, 0, 0}});
   scan->sensor.clear();
   test.add(0, Pose3::Identity(), scan);

@@ -53,9 +53,9 @@ struct TestMap {
 
   void add(uint16_t robot, const Pose3& world_T_base, KeyedScanPtr scan) {
     uint32_t index = 0;
-    for (const MapKeyframe& keyframe : map.keyframes)
-      if (keyframe.id.robot == RobotId{robot}) ++index;
-    map.keyframes.push_back({{RobotId{robot}, index}, 1.0 * index, world_T_base, scan});
+    for (const MapKeyNode& key_node : map.key_nodes)
+      if (key_node.id.robot == RobotId{robot}) ++index;
+    map.key_nodes.push_back({{RobotId{robot}, index}, 1.0 * index, world_T_base, scan});
   }
   void addTrack(uint16_t robot, const std::vector<Eigen::Vector2d>& positions) {
     MapTrack track;

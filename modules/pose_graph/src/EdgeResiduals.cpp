@@ -1,6 +1,6 @@
 #include "lamp/pose_graph/EdgeResiduals.h"
 
-#include "PoseTerm.h"
+#include "solver/PoseTerm.h"
 
 namespace lamp {
 

@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "BlockCholesky.h"
-#include "GaugeAnchors.h"
-#include "NormalEquations.h"
-#include "Unknowns.h"
+#include "solver/BlockCholesky.h"
+#include "solver/GaugeAnchors.h"
+#include "solver/NormalEquations.h"
+#include "solver/Unknowns.h"
 
 namespace lamp {
 
@@ -42,9 +42,9 @@ Matrix6d inSpace(const Eigen::Matrix3d& covariance) {
 class MarginalCovariances::Impl {
  public:
   virtual ~Impl() = default;
-  virtual std::vector<std::optional<Matrix6d>> relative(
-      KeyframeId from, const std::vector<KeyframeId>& to) const = 0;
-  virtual Matrix6d absolute(KeyframeId id) const = 0;
+  virtual std::vector<std::optional<Matrix6d>> relative(KeyNodeId from,
+                                                        const std::vector<KeyNodeId>& to) const = 0;
+  virtual Matrix6d absolute(KeyNodeId id) const = 0;
   virtual Eigen::Matrix3d ofLandmark(LandmarkIndex landmark) const = 0;
 };
 
@@ -78,12 +78,12 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
       throw std::runtime_error("the pose graph's information matrix cannot be factorised");
   }
 
-  std::vector<std::optional<Matrix6d>> relative(KeyframeId from,
-                                                const std::vector<KeyframeId>& to) const override {
+  std::vector<std::optional<Matrix6d>> relative(KeyNodeId from,
+                                                const std::vector<KeyNodeId>& to) const override {
     const size_t source = place_.at(from);
     const Column of_source = column(source);
     std::vector<std::optional<Matrix6d>> result;
-    for (const KeyframeId id : to) {
+    for (const KeyNodeId id : to) {
       const size_t target = place_.at(id);
       if (target == source)
         result.emplace_back(Matrix6d::Zero());
@@ -95,7 +95,7 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
     return result;
   }
 
-  Matrix6d absolute(KeyframeId id) const override { return absolute(place_.at(id)); }
+  Matrix6d absolute(KeyNodeId id) const override { return absolute(place_.at(id)); }
 
   Eigen::Matrix3d ofLandmark(LandmarkIndex landmark) const override {
     if (row_.at(place_.size() + landmark) < 0) return Eigen::Matrix3d::Zero();
@@ -138,7 +138,7 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
     return inSpace(sum);
   }
 
-  std::unordered_map<KeyframeId, size_t> place_;
+  std::unordered_map<KeyNodeId, size_t> place_;
   std::vector<std::optional<size_t>> gauge_;
   std::vector<typename Space::Pose> poses_;
   std::vector<int> row_;  ///< of each pose in the equations, -1 for held ones
@@ -155,11 +155,11 @@ MarginalCovariances::MarginalCovariances(const PoseGraph& graph) {
 MarginalCovariances::~MarginalCovariances() = default;
 
 std::vector<std::optional<Matrix6d>> MarginalCovariances::relativeCovariances(
-    KeyframeId from, const std::vector<KeyframeId>& to) const {
+    KeyNodeId from, const std::vector<KeyNodeId>& to) const {
   return impl_->relative(from, to);
 }
 
-Matrix6d MarginalCovariances::covariance(KeyframeId id) const {
+Matrix6d MarginalCovariances::covariance(KeyNodeId id) const {
   return impl_->absolute(id);
 }
 

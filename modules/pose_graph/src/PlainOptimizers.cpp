@@ -1,8 +1,8 @@
 #include "lamp/pose_graph/PlainOptimizers.h"
 
-#include "PoseProblem.h"
-#include "SolveStart.h"
+#include "guess/SolveStart.h"
 #include "lamp/pose_graph/InitialGuess.h"
+#include "solver/PoseProblem.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(PlainOptimizer, Optimizer, lamp)
 IMPLEMENTS_MRPT_OBJECT(Lm, PlainOptimizer, lamp)

@@ -1,4 +1,4 @@
-#include "BlockCholesky.h"
+#include "solver/BlockCholesky.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cstring>
 #include <set>
 
-#include "BlockKernels.h"
 #include "TestGraphs.h"
+#include "solver/BlockKernels.h"
 
 namespace lamp {
 namespace {

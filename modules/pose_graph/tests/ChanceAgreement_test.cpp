@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "PoseVolume.h"
 #include "TestGraphs.h"
 #include "lamp/core/ChiSquare.h"
 #include "lamp/pose_graph/OdometryGate.h"
+#include "rejection/PoseVolume.h"
 
 namespace lamp {
 namespace {
@@ -22,7 +22,7 @@ World worldOfPairs(bool planar, double odometry_factor, int outliers) {
     if (edge.type == EdgeType::kOdometry) edge.information /= odometry_factor * odometry_factor;
   Random random(7);
   for (int i = 0; i < 100; i += 2) {
-    const KeyframeId a = keyframe(0, i), b = keyframe(0, i + 60);  // two laps later
+    const KeyNodeId a = key_node(0, i), b = key_node(0, i + 60);  // two laps later
     const Pose3 a_T_b =
         world.truth[world.graph.place(a)].inverse() * world.truth[world.graph.place(b)];
     const Pose3 measured = a_T_b * expSE3(random.tangent(0.05, 0.01));
@@ -73,11 +73,11 @@ TEST(PoseVolume, IsTheShareOfRandomPosesThatLieInside) {
     PoseGraph map;
     for (int i = 0; i < 2; ++i) {
       Node node;
-      node.id = keyframe(0, i);
+      node.id = key_node(0, i);
       node.planar = planar;
       map.addNode(node);
     }
-    map.addEdge(makeEdge(EdgeType::kOdometry, keyframe(0, 0), keyframe(0, 1),
+    map.addEdge(makeEdge(EdgeType::kOdometry, key_node(0, 0), key_node(0, 1),
                          Pose3(Eigen::Translation3d(4, 3, 2)), informationOf(1, 1)));
     const PoseVolume volume(map, OdometryChains(map));
     const Matrix6d covariance = informationOf(0.4, 0.4).inverse();

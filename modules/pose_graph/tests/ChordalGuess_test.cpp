@@ -53,7 +53,7 @@ TEST(ChordalGuess, LoneNodesAndOddComponentsStay) {
   EXPECT_TRUE(chordalGuess(graph).empty());
   for (int i = 0; i < 2; ++i) {
     Node node;
-    node.id = keyframe(i, 0);
+    node.id = key_node(i, 0);
     node.world_T_base = planarPose(3.0 * i, 1, 2);
     graph.addNode(node);
   }
@@ -65,7 +65,7 @@ TEST(SpanningTreeGuess, LoopsJoinWhatOdometryDoesNot) {
   WorldOptions options;
   options.priors = false;
   World world = makeWorld(options);
-  world.graph.node(keyframe(1, 0)).world_T_base = planarPose(500, 0, 1);
+  world.graph.node(key_node(1, 0)).world_T_base = planarPose(500, 0, 1);
   EXPECT_LT(meanDistance(spanningTreeGuess(world.graph), world.truth), 5);
 }
 

@@ -90,9 +90,9 @@ TEST(G2oFile, SymbolsAreRobotsByLetter) {
                       kStep + "EDGE_SE2 " + id(a5) + id(b0) + kStep,
                   "t");
   EXPECT_THAT(g2o.letters, ElementsAre('a', 'b'));
-  EXPECT_EQ(g2o.graph.nodes()[0].id, keyframe(0, 5));
-  EXPECT_EQ(g2o.graph.nodes()[2].id, keyframe(1, 0));
-  EXPECT_EQ(g2o.name(keyframe(1, 1)), "b1");
+  EXPECT_EQ(g2o.graph.nodes()[0].id, key_node(0, 5));
+  EXPECT_EQ(g2o.graph.nodes()[2].id, key_node(1, 0));
+  EXPECT_EQ(g2o.name(key_node(1, 1)), "b1");
   EXPECT_EQ(g2o.graph.edges()[1].type, EdgeType::kOdometry);
   EXPECT_TRUE(g2o.graph.edges()[2].betweenRobots());
 }

@@ -1,4 +1,4 @@
-#include "GaugeAnchors.h"
+#include "solver/GaugeAnchors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,20 +16,20 @@ const Matrix6d kInformation = informationOf(0.1, 0.01);
 /** Two robots of two key nodes, added last first, and a loop (edge 2) between them. */
 PoseGraph twoRobots() {
   PoseGraph graph;
-  for (const KeyframeId id : {keyframe(1, 1), keyframe(1, 0), keyframe(0, 1), keyframe(0, 0)}) {
+  for (const KeyNodeId id : {key_node(1, 1), key_node(1, 0), key_node(0, 1), key_node(0, 0)}) {
     Node node;
     node.id = id;
     graph.addNode(node);
   }
   for (int robot : {0, 1})
-    graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(robot, 0), keyframe(robot, 1),
+    graph.addEdge(makeEdge(EdgeType::kOdometry, key_node(robot, 0), key_node(robot, 1),
                            Pose3::Identity(), kInformation));
-  graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, 1), keyframe(1, 1), Pose3::Identity(),
+  graph.addEdge(makeEdge(EdgeType::kLoopClosure, key_node(0, 1), key_node(1, 1), Pose3::Identity(),
                          kInformation));
   return graph;
 }
 
-void addPrior(PoseGraph& graph, KeyframeId id) {
+void addPrior(PoseGraph& graph, KeyNodeId id) {
   graph.addEdge(makeEdge(EdgeType::kPrior, id, id, Pose3::Identity(), kInformation));
 }
 
@@ -43,15 +43,15 @@ TEST(GaugeAnchors, DroppedLoopLeavesTwoComponents) {
 
 TEST(GaugeAnchors, PriorHoldsItsComponentOnly) {
   PoseGraph graph = twoRobots();
-  addPrior(graph, keyframe(1, 1));
+  addPrior(graph, key_node(1, 1));
   EXPECT_THAT(gaugeAnchors(graph, {1, 1, 1, 1}), IsEmpty());
   EXPECT_THAT(gaugeAnchors(graph, {1, 1, 0, 1}), ElementsAre(3));
 }
 
 TEST(GaugeAnchors, PriorsDoNotJoin) {
   PoseGraph graph = twoRobots();
-  addPrior(graph, keyframe(0, 0));
-  addPrior(graph, keyframe(1, 0));
+  addPrior(graph, key_node(0, 0));
+  addPrior(graph, key_node(1, 0));
   EXPECT_THAT(gaugeAnchors(graph, {1, 1, 0, 1, 1}), IsEmpty());
 }
 

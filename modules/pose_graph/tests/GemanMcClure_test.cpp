@@ -1,4 +1,4 @@
-#include "GemanMcClure.h"
+#include "robust/GemanMcClure.h"
 
 #include <gtest/gtest.h>
 

@@ -98,13 +98,13 @@ TEST(GncUpdate, NewKeyNodesFollowOdometry) {
   Gnc gnc;
   const OptimizationResult before = gnc.optimize(graph);
   Node node;
-  node.id = keyframe(0, 90);
+  node.id = key_node(0, 90);
   graph.addNode(node);
   const Pose3 step = planarPose(1, 0, 0.1);
   graph.addEdge(
-      makeEdge(EdgeType::kOdometry, keyframe(0, 89), node.id, step, informationOf(0.02, 0.004)));
+      makeEdge(EdgeType::kOdometry, key_node(0, 89), node.id, step, informationOf(0.02, 0.004)));
   const OptimizationResult after = gnc.optimize(graph);
-  const Pose3 expected = before.world_T_base[graph.place(keyframe(0, 89))] * step;
+  const Pose3 expected = before.world_T_base[graph.place(key_node(0, 89))] * step;
   EXPECT_TRUE(after.world_T_base.back().isApprox(expected, 1e-5));
 }
 

@@ -136,7 +136,7 @@ TEST(Gnc, RobotWithoutPriorIsJoinedByLoops) {
   options.priors = false;
   options.outliers = 30;
   World world = makeWorld(options);
-  world.graph.node(keyframe(1, 0)).world_T_base = planarPose(100, 50, -2.5);
+  world.graph.node(key_node(1, 0)).world_T_base = planarPose(100, 50, -2.5);
   const OptimizationResult result = Gnc().optimize(world.graph);
   EXPECT_EQ(score(result, world).precision, 1.0);
   EXPECT_GE(score(result, world).recall, 0.98);
@@ -148,7 +148,7 @@ TEST(Gnc, RobotThatNoLoopJoinsKeepsItsFrame) {
   options.priors = false;
   options.loops = 0;
   World world = makeWorld(options);
-  const KeyframeId second = keyframe(1, 0);
+  const KeyNodeId second = key_node(1, 0);
   world.graph.node(second).world_T_base = planarPose(-7, 3, 1);
   const OptimizationResult result = Gnc().optimize(world.graph);
   ASSERT_TRUE(result.report.usable);
@@ -189,7 +189,7 @@ TEST(Gnc, FalseLoopsThatAgreeAreOutvoted) {
     World world = makeWorld(options);
     Random random(3);
     const auto addLoop = [&](int i, const Pose3& shift, bool is_true) {
-      const KeyframeId a = keyframe(0, i % 50), b = keyframe(0, 60 + i % 50);
+      const KeyNodeId a = key_node(0, i % 50), b = key_node(0, 60 + i % 50);
       const Pose3 a_T_b =
           world.truth[world.graph.place(a)].inverse() * shift * world.truth[world.graph.place(b)];
       const Pose3 measured = a_T_b * expSE3(random.tangent(0.05, 0.01));

@@ -1,4 +1,4 @@
-#include "GrowingClique.h"
+#include "rejection/GrowingClique.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

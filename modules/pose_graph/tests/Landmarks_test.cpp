@@ -17,12 +17,12 @@ Eigen::Vector3d noise(Random& random, double sigma) {
   return {random.normal(sigma), random.normal(sigma), random.normal(sigma)};
 }
 
-Pose3 trueOf(const World& world, KeyframeId id) {
+Pose3 trueOf(const World& world, KeyNodeId id) {
   return world.truth[world.graph.place(id)];
 }
 
 /** What a key node's camera measures of a landmark, with an error. */
-Edge sighting(const World& world, KeyframeId id, LandmarkIndex landmark, const Eigen::Vector3d& p,
+Edge sighting(const World& world, KeyNodeId id, LandmarkIndex landmark, const Eigen::Vector3d& p,
               Random& random) {
   const bool planar = world.graph.planar();
   Eigen::Vector3d camera = kCamera, seen = trueOf(world, id).inverse() * p;
@@ -35,13 +35,13 @@ Edge sighting(const World& world, KeyframeId id, LandmarkIndex landmark, const E
   return bearingRangeEdge(id, landmark, camera, camera + way, kSightingRad, kSightingM);
 }
 
-Edge range(const World& world, KeyframeId id, LandmarkIndex landmark, const Eigen::Vector3d& p,
+Edge range(const World& world, KeyNodeId id, LandmarkIndex landmark, const Eigen::Vector3d& p,
            Random& random) {
   const double distance = (p - trueOf(world, id) * kAntenna).norm();
   return rangeEdge(id, landmark, kAntenna, distance + random.normal(kRangeM), kRangeM);
 }
 
-Edge gravity(const World& world, KeyframeId id, Random& random) {
+Edge gravity(const World& world, KeyNodeId id, Random& random) {
   const Eigen::Vector3d up = trueOf(world, id).linear().transpose() * Eigen::Vector3d::UnitZ() +
                              noise(random, kGravityRad);
   return gravityEdge(id, up, kGravityRad);
@@ -65,13 +65,13 @@ World richWorld(bool planar, bool priors, Random& random) {
   world.graph.addLandmark({"anchor", anchor, true});
   for (int robot = 0; robot < 2; ++robot)
     for (int i = 0; i < options.nodes; i += 9) {
-      const KeyframeId id = keyframe(robot, i);
+      const KeyNodeId id = key_node(robot, i);
       world.graph.addEdge(sighting(world, id, 0, artifact, random));
       world.graph.addEdge(range(world, id, 1, anchor, random));
       world.graph.addEdge(gravity(world, id, random));
     }
   for (int i = 0; i < options.nodes; i += 7) {
-    const KeyframeId a = keyframe(0, i), b = keyframe(1, i);
+    const KeyNodeId a = key_node(0, i), b = key_node(1, i);
     const double distance = (trueOf(world, a) * kAntenna - trueOf(world, b) * kAntenna).norm();
     world.graph.addEdge(
         robotRangeEdge(a, kAntenna, b, kAntenna, distance + random.normal(kRangeM), kRangeM));
@@ -101,10 +101,10 @@ TEST(Landmarks, LoseNothingToAnEdgeThatIsWrong) {
     Random random(2);
     World world = richWorld(planar, true, random);
     const size_t right = world.graph.edges().size();
-    world.graph.addEdge(sighting(world, keyframe(0, 40), 0, {-9, 3, planar ? 0.0 : 2.0}, random));
-    world.graph.addEdge(rangeEdge(keyframe(1, 40), 1, kAntenna, 60.0, kRangeM));
+    world.graph.addEdge(sighting(world, key_node(0, 40), 0, {-9, 3, planar ? 0.0 : 2.0}, random));
+    world.graph.addEdge(rangeEdge(key_node(1, 40), 1, kAntenna, 60.0, kRangeM));
     world.graph.addEdge(
-        robotRangeEdge(keyframe(0, 5), kAntenna, keyframe(1, 5), kAntenna, 40.0, kRangeM));
+        robotRangeEdge(key_node(0, 5), kAntenna, key_node(1, 5), kAntenna, 40.0, kRangeM));
     const OptimizationResult result = Gnc().optimize(world.graph);
     for (const LoopVerdict& verdict : result.loops)
       EXPECT_EQ(verdict.verdict, verdict.edge < right ? Verdict::kInlier : Verdict::kOutlier)
@@ -119,12 +119,12 @@ TEST(Landmarks, GravityLevelsAnUntiedMap) {
   PoseGraph graph;
   for (int i = 0; i < kNodes; ++i) {
     Node node;
-    node.id = keyframe(0, i);
+    node.id = key_node(0, i);
     graph.addNode(node);
     Vector6d step = Vector6d::Zero();
     step << 2, 0, 0, 0, 0.01, 0;
     if (i > 0)
-      graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(0, i - 1), node.id, expSE3(step),
+      graph.addEdge(makeEdge(EdgeType::kOdometry, key_node(0, i - 1), node.id, expSE3(step),
                              informationOf(0.05, 0.02)));
     // The first key node stands tilted by 0.1 rad, which its frame does not know of.
     graph.addEdge(gravityEdge(node.id, {std::sin(0.1), 0, std::cos(0.1)}, kGravityRad));
@@ -140,7 +140,7 @@ TEST(Landmarks, GravityLevelsAnUntiedMap) {
                 1.5);
   }
   const MarginalCovariances marginals(graph);
-  EXPECT_LT(marginals.covariance(keyframe(0, 0))(4, 4), kGravityRad * kGravityRad);
+  EXPECT_LT(marginals.covariance(key_node(0, 0))(4, 4), kGravityRad * kGravityRad);
 }
 
 TEST(Landmarks, DistancesAlonePlaceAnAnchor) {
@@ -152,8 +152,8 @@ TEST(Landmarks, DistancesAlonePlaceAnAnchor) {
   world.graph.addLandmark({"anchor"});
   world.graph.addLandmark({"heard once"});
   for (int i = 0; i < options.nodes; i += 3)
-    world.graph.addEdge(range(world, keyframe(0, i), 0, anchor, random));
-  world.graph.addEdge(range(world, keyframe(0, 0), 1, anchor, random));
+    world.graph.addEdge(range(world, key_node(0, i), 0, anchor, random));
+  world.graph.addEdge(range(world, key_node(0, 0), 1, anchor, random));
   OptimizationResult result = Gnc().optimize(world.graph);
   ASSERT_TRUE(result.landmarks[0]);
   EXPECT_FALSE(result.landmarks[1]) << "a sphere is no place";
@@ -177,8 +177,8 @@ TEST(Landmarks, DoNotTieRobotsOfUnknownStart) {
   world.graph.addLandmark({"artifact"});
   for (int robot = 0; robot < 2; ++robot)
     for (int i = 0; i < 90; i += 10)
-      world.graph.addEdge(sighting(world, keyframe(robot, i), 0, {6, 4, 1}, random));
-  world.graph.addEdge(robotRangeEdge(keyframe(0, 5), kAntenna, keyframe(1, 5), kAntenna, 5, 0.1));
+      world.graph.addEdge(sighting(world, key_node(robot, i), 0, {6, 4, 1}, random));
+  world.graph.addEdge(robotRangeEdge(key_node(0, 5), kAntenna, key_node(1, 5), kAntenna, 5, 0.1));
   const OptimizationResult result = Gnc().optimize(world.graph);
   for (const LoopVerdict& verdict : result.loops) {
     const Edge& edge = world.graph.edges()[verdict.edge];

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "PoseProblem.h"
 #include "TestGraphs.h"
 #include "lamp/core/MeasurementEdges.h"
 #include "lamp/pose_graph/PlainOptimizers.h"
+#include "solver/PoseProblem.h"
 
 namespace lamp {
 namespace {
@@ -17,7 +17,7 @@ TEST(LeaveOneOut, IsWhatTheCostFallsByWithoutTheEdge) {
     World world = makeWorld(options);
     world.graph.addLandmark({"lamp"});
     for (const int i : {3, 11, 25, 40}) {
-      const KeyframeId id = keyframe(0, i);
+      const KeyNodeId id = key_node(0, i);
       Eigen::Vector3d seen =
           world.truth[world.graph.place(id)].inverse() * Eigen::Vector3d(4, 5, 0);
       if (planar) seen.z() = 0;
@@ -57,7 +57,7 @@ TEST(LeaveOneOut, AnEdgeThatNothingChecksHasNoDistance) {
   options.priors = false;
   options.loops = 0;
   World world = makeWorld(options);
-  world.graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, 3), keyframe(1, 5),
+  world.graph.addEdge(makeEdge(EdgeType::kLoopClosure, key_node(0, 3), key_node(1, 5),
                                planarPose(1, 2, 3), informationOf(0.1, 0.1)));
   const OptimizationResult result = Lm().optimize(world.graph);
   const auto distances2 = makePoseProblem("Lm", world.graph, result.world_T_base)

@@ -23,12 +23,12 @@ PoseGraph randomChain(int size, unsigned seed) {
   PoseGraph graph;
   for (int i = 0; i < size; ++i) {
     Node node;
-    node.id = keyframe(0, i);
+    node.id = key_node(0, i);
     const Pose3 step = random.pose(2.0, 0.8);
-    if (i > 0) node.world_T_base = graph.node(keyframe(0, i - 1)).world_T_base * step;
+    if (i > 0) node.world_T_base = graph.node(key_node(0, i - 1)).world_T_base * step;
     graph.addNode(node);
     if (i > 0)
-      graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(0, i - 1), node.id, step,
+      graph.addEdge(makeEdge(EdgeType::kOdometry, key_node(0, i - 1), node.id, step,
                              randomCovariance(random).inverse()));
   }
   return graph;
@@ -36,7 +36,7 @@ PoseGraph randomChain(int size, unsigned seed) {
 
 /** Information of all nodes' right perturbations with one node held, by finite differences of the
  * edges' residuals: the true relative covariance to first order. */
-Matrix6d denseCovariance(const PoseGraph& graph, KeyframeId from, KeyframeId to) {
+Matrix6d denseCovariance(const PoseGraph& graph, KeyNodeId from, KeyNodeId to) {
   const size_t n = graph.nodes().size();
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6 * n, 6 * n);
   constexpr double kStep = 1e-6;
@@ -65,7 +65,7 @@ PoseGraph randomLoops(unsigned seed) {
   Random random(seed);
   PoseGraph graph = randomChain(8, seed);
   for (const auto& [a, b] : {std::make_pair(0, 5), std::make_pair(7, 2), std::make_pair(1, 6)}) {
-    const KeyframeId from = keyframe(0, a), to = keyframe(0, b);
+    const KeyNodeId from = key_node(0, a), to = key_node(0, b);
     graph.addEdge(makeEdge(EdgeType::kLoopClosure, from, to,
                            graph.node(from).world_T_base.inverse() * graph.node(to).world_T_base,
                            randomCovariance(random).inverse()));
@@ -80,8 +80,8 @@ TEST(MarginalCovariances, AreThoseOfTheInvertedMatrix) {
       for (int to = 0; to < 8; ++to) {
         if (to == from) continue;
         const Matrix6d got =
-            *uncertainty.relativeCovariances(keyframe(0, from), {keyframe(0, to)}).front();
-        const Matrix6d expected = denseCovariance(graph, keyframe(0, from), keyframe(0, to));
+            *uncertainty.relativeCovariances(key_node(0, from), {key_node(0, to)}).front();
+        const Matrix6d expected = denseCovariance(graph, key_node(0, from), key_node(0, to));
         EXPECT_LT((got - expected).norm(), 1e-4 * expected.norm()) << from << " " << to;
       }
   }
@@ -90,18 +90,18 @@ TEST(MarginalCovariances, AreThoseOfTheInvertedMatrix) {
 TEST(MarginalCovariances, OfANodeAreRelativeToTheFirstWithoutAPrior) {
   PoseGraph graph = randomLoops(4);
   const Matrix6d relative =
-      *MarginalCovariances(graph).relativeCovariances(keyframe(0, 0), {keyframe(0, 6)}).front();
-  EXPECT_TRUE(MarginalCovariances(graph).covariance(keyframe(0, 6)).isApprox(relative, 1e-6));
-  EXPECT_TRUE(MarginalCovariances(graph).covariance(keyframe(0, 0)).isZero());
+      *MarginalCovariances(graph).relativeCovariances(key_node(0, 0), {key_node(0, 6)}).front();
+  EXPECT_TRUE(MarginalCovariances(graph).covariance(key_node(0, 6)).isApprox(relative, 1e-6));
+  EXPECT_TRUE(MarginalCovariances(graph).covariance(key_node(0, 0)).isZero());
 
   const Matrix6d prior = informationOf(0.5, 0.2);
-  graph.addEdge(makeEdge(EdgeType::kPrior, keyframe(0, 0), keyframe(0, 0),
-                         graph.node(keyframe(0, 0)).world_T_base, prior));
+  graph.addEdge(makeEdge(EdgeType::kPrior, key_node(0, 0), key_node(0, 0),
+                         graph.node(key_node(0, 0)).world_T_base, prior));
   const MarginalCovariances held(graph);
-  EXPECT_TRUE(held.covariance(keyframe(0, 0)).isApprox(prior.inverse(), 1e-4));
-  EXPECT_GT(held.covariance(keyframe(0, 6)).trace(), relative.trace());
+  EXPECT_TRUE(held.covariance(key_node(0, 0)).isApprox(prior.inverse(), 1e-4));
+  EXPECT_GT(held.covariance(key_node(0, 6)).trace(), relative.trace());
   EXPECT_TRUE(
-      held.relativeCovariances(keyframe(0, 0), {keyframe(0, 6)})[0]->isApprox(relative, 1e-4))
+      held.relativeCovariances(key_node(0, 0), {key_node(0, 6)})[0]->isApprox(relative, 1e-4))
       << "the prior moves both";
 }
 
@@ -111,25 +111,25 @@ class TwoRobots : public testing::Test {
     for (const int robot : {0, 1})
       for (const int index : {0, 1}) {
         Node node;
-        node.id = keyframe(robot, index);
+        node.id = key_node(robot, index);
         node.world_T_base = planarPose(index, 10.0 * robot, 0);
         graph.addNode(node);
       }
     for (const int robot : {0, 1})
-      graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(robot, 0), keyframe(robot, 1),
+      graph.addEdge(makeEdge(EdgeType::kOdometry, key_node(robot, 0), key_node(robot, 1),
                              planarPose(1, 0, 0), informationOf(0.1, 0.01)));
   }
   void addPrior(int robot, double sigma_m) {
-    const KeyframeId id = keyframe(robot, 0);
+    const KeyNodeId id = key_node(robot, 0);
     graph.addEdge(makeEdge(EdgeType::kPrior, id, id, graph.node(id).world_T_base,
                            informationOf(sigma_m, 1e-3)));
   }
   EdgeIndex addLoop() {
-    return graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, 1), keyframe(1, 1),
+    return graph.addEdge(makeEdge(EdgeType::kLoopClosure, key_node(0, 1), key_node(1, 1),
                                   planarPose(0, 10, 0), informationOf(0.05, 0.01)));
   }
   std::optional<Matrix6d> between() const {
-    return MarginalCovariances(graph).relativeCovariances(keyframe(0, 1), {keyframe(1, 1)}).front();
+    return MarginalCovariances(graph).relativeCovariances(key_node(0, 1), {key_node(1, 1)}).front();
   }
   PoseGraph graph;
 };
@@ -164,7 +164,7 @@ TEST_F(TwoRobots, LoopCountsUnlessRejected) {
 }
 
 TEST_F(TwoRobots, WhatALoopDoesNotKnowIsHardlyKnown) {
-  Edge loop = makeEdge(EdgeType::kLoopClosure, keyframe(0, 1), keyframe(1, 1), planarPose(0, 10, 0),
+  Edge loop = makeEdge(EdgeType::kLoopClosure, key_node(0, 1), key_node(1, 1), planarPose(0, 10, 0),
                        informationOf(0.05, 0.01));
   loop.information(0, 0) = 0.0;
   graph.addEdge(loop);
@@ -176,18 +176,18 @@ TEST_F(TwoRobots, WhatALoopDoesNotKnowIsHardlyKnown) {
 
 TEST_F(TwoRobots, ParallelEdgesAddTheirInformation) {
   addLoop();
-  graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(1, 1), keyframe(0, 1),
+  graph.addEdge(makeEdge(EdgeType::kLoopClosure, key_node(1, 1), key_node(0, 1),
                          planarPose(0, -10, 0), informationOf(0.05, 1)));
   EXPECT_NEAR((*between())(1, 1), 0.0025 / 2, 1e-5);
 }
 
 TEST_F(TwoRobots, ItselfUnknownAndNone) {
   const MarginalCovariances uncertainty(graph);
-  EXPECT_TRUE(uncertainty.relativeCovariances(keyframe(0, 0), {keyframe(0, 0)})[0]->isZero());
-  EXPECT_TRUE(uncertainty.relativeCovariances(keyframe(0, 0), {}).empty());
-  EXPECT_THROW(uncertainty.relativeCovariances(keyframe(5, 0), {}), std::out_of_range);
+  EXPECT_TRUE(uncertainty.relativeCovariances(key_node(0, 0), {key_node(0, 0)})[0]->isZero());
+  EXPECT_TRUE(uncertainty.relativeCovariances(key_node(0, 0), {}).empty());
+  EXPECT_THROW(uncertainty.relativeCovariances(key_node(5, 0), {}), std::out_of_range);
   const auto twice =
-      uncertainty.relativeCovariances(keyframe(0, 0), {keyframe(0, 1), keyframe(0, 1)});
+      uncertainty.relativeCovariances(key_node(0, 0), {key_node(0, 1), key_node(0, 1)});
   EXPECT_TRUE(twice[0]->isApprox(*twice[1], 0.0));
 }
 
@@ -195,7 +195,7 @@ TEST(MarginalCovariancesPlanar, PlaneIsExactAndTheRestSmall) {
   PoseGraph graph;
   for (int i = 0; i < 3; ++i) {
     Node node;
-    node.id = keyframe(0, i);
+    node.id = key_node(0, i);
     node.planar = true;
     node.world_T_base = planarPose(2.0 * i, 0, 0);
     graph.addNode(node);
@@ -203,10 +203,10 @@ TEST(MarginalCovariancesPlanar, PlaneIsExactAndTheRestSmall) {
   Matrix6d information = Matrix6d::Zero();  // says nothing of z, roll, pitch
   information.diagonal() << 100, 100, 0, 0, 0, 1e4;
   for (int i : {1, 2})
-    graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(0, i - 1), keyframe(0, i),
+    graph.addEdge(makeEdge(EdgeType::kOdometry, key_node(0, i - 1), key_node(0, i),
                            planarPose(2, 0, 0), information));
   const Matrix6d covariance =
-      *MarginalCovariances(graph).relativeCovariances(keyframe(0, 0), {keyframe(0, 2)}).front();
+      *MarginalCovariances(graph).relativeCovariances(key_node(0, 0), {key_node(0, 2)}).front();
   EXPECT_NEAR(covariance(0, 0), 0.02, 1e-9);
   EXPECT_NEAR(covariance(1, 1), 0.02 + 4e-4, 1e-9);
   EXPECT_NEAR(covariance(5, 5), 2e-4, 1e-12);

@@ -1,4 +1,4 @@
-#include "Minimizers.h"
+#include "solver/Minimizers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "NormalEquations.h"
+#include "solver/NormalEquations.h"
 
 #include <gtest/gtest.h>
 

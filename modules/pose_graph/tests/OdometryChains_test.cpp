@@ -1,9 +1,9 @@
-#include "OdometryChains.h"
+#include "rejection/OdometryChains.h"
 
 #include <gtest/gtest.h>
 
-#include "Information.h"
 #include "TestGraphs.h"
+#include "solver/Information.h"
 
 namespace lamp {
 namespace {
@@ -35,7 +35,7 @@ TEST(OdometryChains, DifferencesOfSumsAreTheComposedCovariance) {
     const PoseGraph graph = chains(planar).graph;
     const OdometryChains odometry(graph);
     const RelativePose expected = composedChain(graph, 0, 7, 31);
-    const auto got = odometry.between(keyframe(0, 7), keyframe(0, 31));
+    const auto got = odometry.between(key_node(0, 7), key_node(0, 31));
     ASSERT_TRUE(got);
     EXPECT_TRUE(got->a_T_b.isApprox(expected.a_T_b, 1e-9));
     EXPECT_LT((got->covariance - expected.covariance).norm(), 1e-6 * expected.covariance.norm());
@@ -45,8 +45,8 @@ TEST(OdometryChains, DifferencesOfSumsAreTheComposedCovariance) {
 TEST(OdometryChains, BackwardsIsTheInverse) {
   const PoseGraph graph = chains(false).graph;
   const OdometryChains odometry(graph);
-  const auto forward = odometry.between(keyframe(0, 3), keyframe(0, 30));
-  const auto back = odometry.between(keyframe(0, 30), keyframe(0, 3));
+  const auto forward = odometry.between(key_node(0, 3), key_node(0, 30));
+  const auto back = odometry.between(key_node(0, 30), key_node(0, 3));
   EXPECT_TRUE((forward->a_T_b * back->a_T_b).isApprox(Pose3::Identity(), 1e-9));
   const Matrix6d Ad = adjoint(forward->a_T_b);
   EXPECT_LT((back->covariance - Ad * forward->covariance * Ad.transpose()).norm(),
@@ -55,7 +55,7 @@ TEST(OdometryChains, BackwardsIsTheInverse) {
 
 TEST(OdometryChains, RobotsAreRelatedByTheirPriorsOnly) {
   const World world = chains(false);
-  const auto related = OdometryChains(world.graph).between(keyframe(0, 10), keyframe(1, 20));
+  const auto related = OdometryChains(world.graph).between(key_node(0, 10), key_node(1, 20));
   ASSERT_TRUE(related);
   const Pose3 truth = world.truth[10].inverse() * world.truth[40 + 20];
   const Vector6d error = logSE3(related->a_T_b.inverse() * truth);
@@ -66,22 +66,22 @@ TEST(OdometryChains, RobotsAreRelatedByTheirPriorsOnly) {
   options.priors = false;
   options.loops = 0;
   const PoseGraph apart = makeWorld(options).graph;
-  EXPECT_FALSE(OdometryChains(apart).between(keyframe(0, 10), keyframe(1, 20)));
+  EXPECT_FALSE(OdometryChains(apart).between(key_node(0, 10), key_node(1, 20)));
 }
 
 TEST(OdometryChains, AGapEndsTheChain) {
   PoseGraph graph = chains(false).graph;
   Node node;
-  node.id = keyframe(0, 41);  // 40 is missing
+  node.id = key_node(0, 41);  // 40 is missing
   graph.addNode(node);
-  EXPECT_FALSE(OdometryChains(graph).between(keyframe(0, 39), node.id));
+  EXPECT_FALSE(OdometryChains(graph).between(key_node(0, 39), node.id));
 }
 
 TEST(OdometryChains, ScaleStretchesTheCovariance) {
   const PoseGraph graph = chains(false).graph;
   const OdometryChains odometry(graph);
-  const auto one = odometry.between(keyframe(0, 3), keyframe(0, 30));
-  const auto ten = odometry.between(keyframe(0, 3), keyframe(0, 30), 10.0);
+  const auto one = odometry.between(key_node(0, 3), key_node(0, 30));
+  const auto ten = odometry.between(key_node(0, 3), key_node(0, 30), 10.0);
   EXPECT_TRUE(ten->covariance.isApprox(10.0 * one->covariance, 1e-12));
 }
 

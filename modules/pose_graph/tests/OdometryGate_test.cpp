@@ -87,7 +87,7 @@ TEST(OdometryGate, DirectionsThatALoopDoesNotKnowAreNotJudged) {
   options.robots = 1;
   options.loops = 0;
   World world = makeWorld(options);
-  Edge loop = makeEdge(EdgeType::kLoopClosure, keyframe(0, 0), keyframe(0, 30),
+  Edge loop = makeEdge(EdgeType::kLoopClosure, key_node(0, 0), key_node(0, 30),
                        world.truth[0].inverse() * world.truth[30], informationOf(0.05, 0.01));
   loop.from_T_to.translation() += loop.from_T_to.linear() * Eigen::Vector3d(20, 0, 0);
   for (const bool blind : {false, true}) {

@@ -32,7 +32,7 @@ std::vector<Pose3> estimates(const PoseGraph& graph) {
   return result;
 }
 
-Node nodeAt(KeyframeId id, const Pose3& world_T_base = Pose3::Identity(), bool planar = false) {
+Node nodeAt(KeyNodeId id, const Pose3& world_T_base = Pose3::Identity(), bool planar = false) {
   Node node;
   node.id = id;
   node.world_T_base = world_T_base;
@@ -139,14 +139,14 @@ TEST_P(PlainOptimizers, EmptyGraphAndLoneNode) {
   PoseGraph graph;
   EXPECT_TRUE(optimize(graph).world_T_base.empty());
   const Pose3 current = planarPose(1, 2, 0.5);
-  graph.addNode(nodeAt(keyframe(0, 0), current));
+  graph.addNode(nodeAt(key_node(0, 0), current));
   const OptimizationResult alone = optimize(graph);
   ASSERT_TRUE(alone.report.usable) << alone.report.termination;
   EXPECT_TRUE(alone.world_T_base[0].isApprox(current, 1e-15));
 
   const Pose3 start = planarPose(4, 5, -1);
   graph.addEdge(
-      makeEdge(EdgeType::kPrior, keyframe(0, 0), keyframe(0, 0), start, informationOf(0.1, 0.1)));
+      makeEdge(EdgeType::kPrior, key_node(0, 0), key_node(0, 0), start, informationOf(0.1, 0.1)));
   EXPECT_TRUE(optimize(graph).world_T_base[0].isApprox(start, 1e-9));
 }
 
@@ -155,7 +155,7 @@ TEST_P(PlainOptimizers, ComponentsWithoutPriorKeepTheirFirstNode) {
   options.priors = false;
   options.loops = 0;
   World world = makeWorld(options);
-  const KeyframeId second = keyframe(1, 0);
+  const KeyNodeId second = key_node(1, 0);
   const Pose3 current = planarPose(-7, 3, 1);
   world.graph.node(second).world_T_base = current;
   const OptimizationResult result = optimize(world.graph);
@@ -166,9 +166,9 @@ TEST_P(PlainOptimizers, ComponentsWithoutPriorKeepTheirFirstNode) {
 
 TEST_P(PlainOptimizers, ParallelEdgesAddTheirInformation) {
   PoseGraph graph;
-  for (int i : {0, 1}) graph.addNode(nodeAt(keyframe(0, i)));
+  for (int i : {0, 1}) graph.addNode(nodeAt(key_node(0, i)));
   const auto add = [&](EdgeType type, double x, double sigma) {
-    graph.addEdge(makeEdge(type, keyframe(0, 0), keyframe(0, 1), planarPose(x, 0, 0),
+    graph.addEdge(makeEdge(type, key_node(0, 0), key_node(0, 1), planarPose(x, 0, 0),
                            informationOf(sigma, 0.1)));
   };
   add(EdgeType::kOdometry, 1.0, 0.1);
@@ -182,12 +182,12 @@ TEST_P(PlainOptimizers, ParallelEdgesAddTheirInformation) {
 
 TEST_P(PlainOptimizers, LoopWithRankDeficientInformationCountsWhereItKnows) {
   PoseGraph graph;
-  for (int i : {0, 1}) graph.addNode(nodeAt(keyframe(0, i)));
-  graph.addEdge(makeEdge(EdgeType::kOdometry, keyframe(0, 0), keyframe(0, 1), planarPose(1, 0, 0),
+  for (int i : {0, 1}) graph.addNode(nodeAt(key_node(0, i)));
+  graph.addEdge(makeEdge(EdgeType::kOdometry, key_node(0, 0), key_node(0, 1), planarPose(1, 0, 0),
                          informationOf(0.1, 1e-4)));
   Vector6d direction = Vector6d::Zero();
   direction.head<2>() << 1, 1;  // knows x + y only
-  graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, 0), keyframe(0, 1),
+  graph.addEdge(makeEdge(EdgeType::kLoopClosure, key_node(0, 0), key_node(0, 1),
                          planarPose(2, 0, 0), 1e6 * direction * direction.transpose()));
   const OptimizationResult result = optimize(graph);
   ASSERT_TRUE(result.report.usable);
@@ -201,7 +201,7 @@ TEST_P(PlainOptimizers, PoseThatIsNotFiniteIsNamed) {
   PoseGraph graph;
   Pose3 broken = Pose3::Identity();
   broken(0, 3) = std::numeric_limits<double>::quiet_NaN();
-  graph.addNode(nodeAt(keyframe(0, 7), broken));
+  graph.addNode(nodeAt(key_node(0, 7), broken));
   try {
     optimize(graph);
     FAIL() << "nothing thrown";
@@ -213,8 +213,8 @@ TEST_P(PlainOptimizers, PoseThatIsNotFiniteIsNamed) {
 /** Two key nodes that only a loop joins, which says nothing of the distance along x. */
 PoseGraph slidingPair() {
   PoseGraph graph;
-  for (int robot : {0, 1}) graph.addNode(nodeAt(keyframe(robot, 0), planarPose(3.0 * robot, 0, 0)));
-  Edge loop = makeEdge(EdgeType::kLoopClosure, keyframe(0, 0), keyframe(1, 0), planarPose(5, 2, 0),
+  for (int robot : {0, 1}) graph.addNode(nodeAt(key_node(robot, 0), planarPose(3.0 * robot, 0, 0)));
+  Edge loop = makeEdge(EdgeType::kLoopClosure, key_node(0, 0), key_node(1, 0), planarPose(5, 2, 0),
                        informationOf(0.1, 0.01));
   loop.information.row(0).setZero();
   loop.information.col(0).setZero();

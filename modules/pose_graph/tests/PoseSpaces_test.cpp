@@ -1,4 +1,4 @@
-#include "PoseSpaces.h"
+#include "solver/PoseSpaces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "PoseTerm.h"
+#include "solver/PoseTerm.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 namespace lamp {
 namespace {
 
-const KeyframeId kFrom = keyframe(0, 0), kTo = keyframe(1, 0);
+const KeyNodeId kFrom = key_node(0, 0), kTo = key_node(1, 0);
 
 /** Two key nodes and a landmark, and one edge of each type, at odds with their poses. */
 PoseGraph graphOfAllTypes(Random& random, bool planar) {
   PoseGraph graph;
-  for (const KeyframeId id : {kFrom, kTo}) {
+  for (const KeyNodeId id : {kFrom, kTo}) {
     Node node;
     node.id = id;
     node.planar = planar;
@@ -81,7 +81,7 @@ TYPED_TEST(PoseTermTest, TrueMeasurementsHaveNoError) {
   const Eigen::Vector3d p(2.0, -1.0, kPlanar ? 0.0 : 1.5), from_p = from.inverse() * p;
   const Eigen::Vector3d at(0.3, 0.1, 0.5), at_to(-0.2, 0.4, 0.2);
   PoseGraph graph;
-  for (const KeyframeId id : {kFrom, kTo}) {
+  for (const KeyNodeId id : {kFrom, kTo}) {
     Node node;
     node.id = id;
     node.planar = kPlanar;

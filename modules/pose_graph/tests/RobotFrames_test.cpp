@@ -18,7 +18,7 @@ World strangers(int loops, int outliers, bool planar = false) {
   options.outliers = outliers;
   options.planar = planar;
   World world = makeWorld(options);
-  for (const KeyframeId id : world.graph.robotNodes(keyframe(1, 0).robot))
+  for (const KeyNodeId id : world.graph.robotNodes(key_node(1, 0).robot))
     world.graph.node(id).world_T_base = planarPose(-300, 70, 2) * world.graph.node(id).world_T_base;
   return world;
 }
@@ -72,7 +72,7 @@ TEST(RobotFrames, FalseLoopsAloneDoNotJoin) {
 TEST(RobotFrames, LoopsOfOneKeyNodeCountOnce) {
   World world = strangers(0, 0);
   for (int i = 0; i < 10; ++i) {
-    const KeyframeId from = keyframe(0, 3), to = keyframe(1, 10 + i);
+    const KeyNodeId from = key_node(0, 3), to = key_node(1, 10 + i);
     world.graph.addEdge(makeEdge(
         EdgeType::kLoopClosure, from, to,
         world.truth[world.graph.place(from)].inverse() * world.truth[world.graph.place(to)],
@@ -95,7 +95,7 @@ TEST(RobotFrames, StartPosesNeedNoAgreement) {
 
 TEST(InitialGuess, LoopsPlaceARobotWhoseStartIsBadlyKnown) {
   World world = strangers(60, 40);
-  const KeyframeId start = keyframe(1, 0);
+  const KeyNodeId start = key_node(1, 0);
   const Pose3 truth = world.truth[world.graph.place(start)];
   const Pose3 wrong = truth * planarPose(15, -10, 0.6);
   world.graph.addEdge(makeEdge(EdgeType::kPrior, start, start, wrong, informationOf(20, 1)));
@@ -105,12 +105,12 @@ TEST(InitialGuess, LoopsPlaceARobotWhoseStartIsBadlyKnown) {
 
 TEST(InitialGuess, LoopsDoNotMoveARobotWhoseStartTheyContradict) {
   World world = strangers(0, 0);
-  const KeyframeId start = keyframe(1, 0);
+  const KeyNodeId start = key_node(1, 0);
   const Pose3 truth = world.truth[world.graph.place(start)];
   world.graph.addEdge(makeEdge(EdgeType::kPrior, start, start, truth, informationOf(0.1, 0.01)));
   const double before = meanDistance(initialGuess(world.graph), world.truth);
   for (int i = 0; i < 10; ++i)
-    world.graph.addEdge(makeEdge(EdgeType::kLoopClosure, keyframe(0, i), keyframe(1, i),
+    world.graph.addEdge(makeEdge(EdgeType::kLoopClosure, key_node(0, i), key_node(1, i),
                                  planarPose(40, 0, 1), informationOf(0.01, 0.001)));
   EXPECT_EQ(meanDistance(initialGuess(world.graph), world.truth), before);
 }

@@ -1,4 +1,4 @@
-#include "SquareRoot.h"
+#include "solver/SquareRoot.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 
 namespace lamp {
 
-inline KeyframeId keyframe(int robot, int index) {
+inline KeyNodeId key_node(int robot, int index) {
   return {RobotId{static_cast<uint16_t>(robot)}, static_cast<uint32_t>(index)};
 }
 
@@ -57,7 +57,7 @@ inline Matrix6d informationOf(double sigma_m, double sigma_rad) {
   return diagonal.asDiagonal();
 }
 
-inline Edge makeEdge(EdgeType type, KeyframeId from, KeyframeId to, const Pose3& from_T_to,
+inline Edge makeEdge(EdgeType type, KeyNodeId from, KeyNodeId to, const Pose3& from_T_to,
                      const Matrix6d& information) {
   Edge edge;
   edge.type = type;
@@ -120,16 +120,16 @@ inline PoseGraph readG2o(const std::string& path) {
   PoseGraph graph;
   for (int i = 0; i <= last; ++i) {
     Node node;
-    node.id = keyframe(0, i);
+    node.id = key_node(0, i);
     node.planar = planar;
     graph.addNode(node);
   }
-  graph.addEdge(makeEdge(EdgeType::kPrior, keyframe(0, 0), keyframe(0, 0), Pose3::Identity(),
+  graph.addEdge(makeEdge(EdgeType::kPrior, key_node(0, 0), key_node(0, 0), Pose3::Identity(),
                          informationOf(1e-3, 1e-3)));
   for (const Row& row : rows) {
     const bool odometry = std::abs(row.from - row.to) == 1;
     graph.addEdge(makeEdge(odometry ? EdgeType::kOdometry : EdgeType::kLoopClosure,
-                           keyframe(0, row.from), keyframe(0, row.to), row.from_T_to,
+                           key_node(0, row.from), key_node(0, row.to), row.from_T_to,
                            row.information));
   }
   const std::vector<Pose3> guess = initialGuess(graph);
@@ -175,12 +175,12 @@ inline World makeWorld(const WorldOptions& options) {
     world.graph.addEdge(edge);
     world.true_edge.push_back(is_true);
   };
-  const auto truth = [&](KeyframeId id) { return world.truth[world.graph.place(id)]; };
+  const auto truth = [&](KeyNodeId id) { return world.truth[world.graph.place(id)]; };
 
   for (int robot = 0; robot < options.robots; ++robot) {
     for (int i = 0; i < options.nodes; ++i) {
       Node node;
-      node.id = keyframe(robot, i);
+      node.id = key_node(robot, i);
       node.planar = options.planar;
       world.graph.addNode(node);
       world.truth.push_back(trueWorldPose(options, robot, i));
@@ -191,7 +191,7 @@ inline World makeWorld(const WorldOptions& options) {
               true);
         continue;
       }
-      const KeyframeId last = keyframe(robot, i - 1);
+      const KeyNodeId last = key_node(robot, i - 1);
       add(makeEdge(EdgeType::kOdometry, last, node.id,
                    noisy(truth(last).inverse() * truth(node.id), odometry_m, odometry_rad),
                    informationOf(odometry_m, odometry_rad)),
@@ -200,8 +200,8 @@ inline World makeWorld(const WorldOptions& options) {
   }
   const auto randomPair = [&] {
     for (;;) {
-      const KeyframeId a = world.graph.nodes()[random.below(world.truth.size())].id;
-      const KeyframeId b = world.graph.nodes()[random.below(world.truth.size())].id;
+      const KeyNodeId a = world.graph.nodes()[random.below(world.truth.size())].id;
+      const KeyNodeId b = world.graph.nodes()[random.below(world.truth.size())].id;
       if (a.robot != b.robot || a.index > b.index + 5) return std::make_pair(a, b);
     }
   };

@@ -1,4 +1,4 @@
-#include "TruncatedLeastSquares.h"
+#include "robust/TruncatedLeastSquares.h"
 
 #include <gtest/gtest.h>
 

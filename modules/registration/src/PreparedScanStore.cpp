@@ -14,11 +14,11 @@ void PreparationOptions::visit(OptionVisitor& v) {
   scan.visit(v);
 }
 
-void PreparedScanStore::add(const KeyframePacket& packet) {
-  keyframes_[packet.id] = {packet.odom_T_base, packet.scan, packet.planar};
+void PreparedScanStore::add(const KeyNodePacket& packet) {
+  key_nodes_[packet.id] = {packet.odom_T_base, packet.scan, packet.planar};
 }
 
-PreparedScanStore::Key PreparedScanStore::key(KeyframeId id,
+PreparedScanStore::Key PreparedScanStore::key(KeyNodeId id,
                                               const LoopClosureCandidate& candidate) const {
   auto reach = static_cast<uint32_t>(options_.accumulate_neighbors);
   if (candidate.from.robot == candidate.to.robot) {
@@ -28,21 +28,21 @@ PreparedScanStore::Key PreparedScanStore::key(KeyframeId id,
   return {id, reach, reach};
 }
 
-std::vector<KeyframeId> PreparedScanStore::members(const Key& key) const {
-  std::vector<KeyframeId> ids;
+std::vector<KeyNodeId> PreparedScanStore::members(const Key& key) const {
+  std::vector<KeyNodeId> ids;
   const uint32_t first = key.id.index > key.before ? key.id.index - key.before : 0;
   for (uint32_t index = first; index <= key.id.index + key.after; ++index)
-    if (keyframes_.count({key.id.robot, index})) ids.push_back({key.id.robot, index});
+    if (key_nodes_.count({key.id.robot, index})) ids.push_back({key.id.robot, index});
   return ids;
 }
 
 PreparedScanPtr PreparedScanStore::prepare(const Key& key) const {
-  const Keyframe& center = keyframes_.at(key.id);
+  const KeyNode& center = key_nodes_.at(key.id);
   std::vector<PlacedScan> scans{{center.scan, Pose3::Identity()}};
-  for (const KeyframeId id : members(key)) {
+  for (const KeyNodeId id : members(key)) {
     if (id == key.id) continue;
-    const Keyframe& keyframe = keyframes_.at(id);
-    scans.push_back({keyframe.scan, center.odom_T_base.inverse() * keyframe.odom_T_base});
+    const KeyNode& key_node = key_nodes_.at(id);
+    scans.push_back({key_node.scan, center.odom_T_base.inverse() * key_node.odom_T_base});
   }
   return std::make_shared<PreparedScan>(accumulate(scans, options_.accumulate_voxel_m),
                                         options_.scan, center.planar);

@@ -2,6 +2,7 @@
 
 #include "lamp/registration/BothDirections.h"
 #include "lamp/registration/FreeSpaceConsistency.h"
+#include "lamp/registration/GuessAligners.h"
 #include "lamp/registration/GuessDeviation.h"
 #include "lamp/registration/OverlapResidual.h"
 #include "lamp/registration/PclFitness.h"
@@ -12,9 +13,9 @@ namespace lamp {
 
 void registerAllClasses_lamp_registration() {
   mrpt::rtti::registerClass(CLASS_ID(InitialAligner));
-  mrpt::rtti::registerClass(CLASS_ID(Identity));
-  mrpt::rtti::registerClass(CLASS_ID(Odometry));
-  mrpt::rtti::registerClass(CLASS_ID(OdometryRotation));
+  mrpt::rtti::registerClass(CLASS_ID(IdentityGuess));
+  mrpt::rtti::registerClass(CLASS_ID(OdometryGuess));
+  mrpt::rtti::registerClass(CLASS_ID(OdometryRotationGuess));
   mrpt::rtti::registerClass(CLASS_ID(SacIa));
   mrpt::rtti::registerClass(CLASS_ID(Teaser));
   mrpt::rtti::registerClass(CLASS_ID(Refiner));

@@ -219,7 +219,7 @@ TEST_F(LoopClosureComputationTest, WithoutVerifiersConvergenceIsEnough) {
 TEST_F(LoopClosureComputationTest, RealStagesCloseALoopAndRefuseAWrongPlace) {
   registered(CLASS_ID(Stage));
   const LoopClosureComputation computation(
-      {makeDefault<InitialAligner>("Odometry")}, makeDefault<Refiner>("Gicp"),
+      {makeDefault<InitialAligner>("OdometryGuess")}, makeDefault<Refiner>("Gicp"),
       {makeDefault<Verifier>("OverlapResidual"), makeDefault<Verifier>("GuessDeviation")}, {});
   const RoomPair room(expSE3(tangent(0.8, -0.5, 0.1, 0.02, 0.01, 0.3)), false);
   const Guess guess{room.truth * planarPose(0.4, 0.3, 0.1), 0.1 * Matrix6d::Identity()};

@@ -22,13 +22,13 @@ constexpr RobotId kA{0}, kB{1};
 constexpr double kSpacing = 2.0;
 
 /** A key node that drives along x; its scan has `index + 1` points, the first one at its origin. */
-KeyframePacket packet(RobotId robot, uint32_t index) {
+KeyNodePacket packet(RobotId robot, uint32_t index) {
   auto scan = std::make_shared<Scan>();
   for (uint32_t i = 0; i <= index; ++i)
     scan->points.emplace_back(0.0f, static_cast<float>(i), 0.0f);
   scan->sensor.assign(scan->points.size(), 0);
   scan->sensors.push_back({"lidar", Eigen::Vector3d::Zero()});
-  KeyframePacket packet;
+  KeyNodePacket packet;
   packet.id = {robot, index};
   packet.odom_T_base = planarPose(kSpacing * index, 0, 0);
   packet.scan = scan;
@@ -50,7 +50,7 @@ struct StoreOf : PreparedScanStore {
   }
 };
 
-LoopClosureCandidate pair(KeyframeId from, KeyframeId to) {
+LoopClosureCandidate pair(KeyNodeId from, KeyNodeId to) {
   return {from, to, "Test", 0};
 }
 
@@ -73,7 +73,7 @@ TEST(PreparedScanStore, AccumulatesByOdometryAndKnowsItsOwn) {
 
 TEST(PreparedScanStore, TurnsWithItsKeyNode) {
   PreparedScanStore store{PreparationOptions{}};
-  KeyframePacket first = packet(kA, 0), second = packet(kA, 1);
+  KeyNodePacket first = packet(kA, 0), second = packet(kA, 1);
   first.odom_T_base = planarPose(0, 0, 0);
   second.odom_T_base = planarPose(2, 0, M_PI / 2);
   store.add(first);
@@ -170,7 +170,7 @@ TEST(PreparedScanStore, WhatWasUsedLongAgoMakesRoom) {
 
 TEST(PreparedScanStore, AKeyNodeWithoutPointsIsNoProblem) {
   PreparedScanStore store{PreparationOptions{}};
-  KeyframePacket empty = packet(kA, 0);
+  KeyNodePacket empty = packet(kA, 0);
   empty.scan = std::make_shared<Scan>();
   store.add(empty);
   EXPECT_EQ(store.get({{kA, 0}, 0, 0})->size(), 0u);
@@ -179,7 +179,7 @@ TEST(PreparedScanStore, AKeyNodeWithoutPointsIsNoProblem) {
 
 TEST(PreparedScanStore, KeepsThePlane) {
   PreparedScanStore store{PreparationOptions{}};
-  KeyframePacket planar = packet(kA, 0);
+  KeyNodePacket planar = packet(kA, 0);
   planar.planar = true;
   store.add(planar);
   store.add(packet(kA, 1));

@@ -147,7 +147,7 @@ TEST_P(AnyRefiner, StaysFiniteOnHopelessPairs) {
 }
 
 TEST_P(AnyRefiner, MakesNoLoopOfHopelessPairs) {
-  const LoopClosureComputation computation({makeDefault<InitialAligner>("Identity")}, refiner,
+  const LoopClosureComputation computation({makeDefault<InitialAligner>("IdentityGuess")}, refiner,
                                            {makeDefault<Verifier>("OverlapResidual")}, {});
   forHopelessPairs([&](const PreparedScan& source, const PreparedScan& target) {
     const LoopClosureAttempt attempt = computation.compute(source, target, {});

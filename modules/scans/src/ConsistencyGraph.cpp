@@ -134,10 +134,10 @@ class Search {
     }
   }
 
-  static constexpr size_t kSeeds = 12, kMostBranches = 500;
+  static constexpr size_t kSeeds = 12, kMaxBranches = 500;
 
   const ConsistencyGraph& graph_;
-  size_t branches_left_ = kMostBranches;
+  size_t branches_left_ = kMaxBranches;
   Bits alive_;
   std::vector<size_t> core_;
   std::vector<uint32_t> order_;  ///< vertices in ascending core number

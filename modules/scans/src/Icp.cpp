@@ -30,8 +30,8 @@ class Matcher {
       : source_(source), target_(target), partners_(source.own().size(), KdTree::kNone) {}
 
   /** Every `stride`-th source point with its nearest target point within `max_distance`. */
-  NormalEquations linearize(const Pose3& T, const Vector3d& pivot, double max_distance,
-                            size_t stride, Linearization sum) {
+  IcpNormalEquations linearize(const Pose3& T, const Vector3d& pivot, double max_distance,
+                               size_t stride, Linearization sum) {
     const Eigen::Isometry3f Tf = T.cast<float>();
     for (size_t k = 0; k < source_.own().size(); k += stride) {
       const uint32_t i = source_.own()[k];
@@ -78,7 +78,7 @@ class Matcher {
 
 /** Gauss-Newton step; in the plane only x, y and yaw move. Slight damping leaves directions that
  * the scans do not observe where they are. */
-Vector6d solveStep(const NormalEquations& equations, bool planar) {
+Vector6d solveStep(const IcpNormalEquations& equations, bool planar) {
   constexpr double kDamping = 1e-6;
   Vector6d step = Vector6d::Zero();
   if (!planar) {
@@ -118,7 +118,7 @@ double rmsDistance(const PreparedScan& scan, const Vector3d& center) {
   return std::sqrt(sum / std::max<double>(1.0, static_cast<double>(scan.own().size())));
 }
 
-void describe(const NormalEquations& equations, IcpResult& result) {
+void describe(const IcpNormalEquations& equations, IcpResult& result) {
   result.matches = equations.matches;
   result.information = equations.point_to_plane;
   result.weights = equations.weights;
@@ -201,7 +201,7 @@ IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose
   Schedule schedule(options, source.own().size());
   while (!result.converged && result.iterations < options.max_iterations) {
     result.pivot = result.target_T_source * source_centroid;
-    const NormalEquations equations = matcher.linearize(
+    const IcpNormalEquations equations = matcher.linearize(
         result.target_T_source, result.pivot, schedule.distance(), schedule.stride(),
         Linearization(metric, options.plane_thickness, schedule.kernel()));
     ++result.iterations;

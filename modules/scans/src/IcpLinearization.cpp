@@ -85,8 +85,8 @@ void Linearization::addIsotropic(double weight, const Vector3d& lever, const Vec
   sum_.g.tail<3>() += weight * lever.cross(r);
 }
 
-NormalEquations Linearization::result() const {
-  NormalEquations result = sum_;
+IcpNormalEquations Linearization::result() const {
+  IcpNormalEquations result = sum_;
   result.point_to_plane = symmetric(sum_.point_to_plane);
   result.H = plane_to_plane_ ? symmetric(sum_.H) : result.point_to_plane;
   if (!plane_to_plane_) return result;

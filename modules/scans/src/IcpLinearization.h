@@ -6,7 +6,7 @@
 namespace lamp {
 
 /** Normal equations of one Gauss-Newton step, for a motion about the pivot in the target's axes. */
-struct NormalEquations {
+struct IcpNormalEquations {
   Matrix6d H = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();  ///< half the cost's gradient
   Matrix6d point_to_plane = Matrix6d::Zero();
@@ -26,7 +26,7 @@ class Linearization {
   void add(const Eigen::Vector3d& lever, const Eigen::Vector3d& r, const Eigen::Vector3d& n,
            const Eigen::Vector3d& m);
 
-  NormalEquations result() const;
+  IcpNormalEquations result() const;
 
  private:
   double addPlaneToPlane(const Eigen::Vector3d& lever, const Eigen::Vector3d& r,
@@ -35,7 +35,7 @@ class Linearization {
 
   const bool plane_to_plane_;
   const double thickness_, kernel_m_;
-  NormalEquations sum_;  ///< of the matrices, the upper triangles only
+  IcpNormalEquations sum_;  ///< of the matrices, the upper triangles only
   double isotropic_ = 0;
   Eigen::Vector3d levers_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d lever_squares_ = Eigen::Matrix3d::Zero();

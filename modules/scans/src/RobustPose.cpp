@@ -35,9 +35,9 @@ Matrix3d weightedRotation(const std::vector<PointPair>& vectors, const std::vect
 
 /** Differences of all pairs of points, or of the nearest in sequence where that would be many. */
 std::vector<PointPair> differences(const std::vector<PointPair>& pairs) {
-  constexpr size_t kMostSteps = 40;
+  constexpr size_t kMaxSteps = 40;
   std::vector<PointPair> result;
-  for (size_t step = 1; step < std::min(pairs.size(), kMostSteps + 1); ++step)
+  for (size_t step = 1; step < std::min(pairs.size(), kMaxSteps + 1); ++step)
     for (size_t i = 0; i + step < pairs.size(); ++i)
       result.push_back(
           {pairs[i + step].source - pairs[i].source, pairs[i + step].target - pairs[i].target});

@@ -42,9 +42,9 @@ void consistentWith(const float* columns, size_t count, size_t i, float distance
         std::abs(mx[i] * ax + my[i] * ay + mz[i] * az - (nx[i] * bx + ny[i] * by + nz[i] * bz));
     const float height_j =
         std::abs(mx[j] * ax + my[j] * ay + mz[j] * az - (nx[j] * bx + ny[j] * by + nz[j] * bz));
-    const float most_height = distance + angle * length;
+    const float max_height = distance + angle * length;
     consistent[j] = static_cast<int32_t>((difference <= distance) & (cosines <= angle) &
-                                         (height_i <= most_height) & (height_j <= most_height));
+                                         (height_i <= max_height) & (height_j <= max_height));
   }
 }
 

@@ -53,7 +53,7 @@ double halfCost(const std::vector<Pair>& pairs, IcpMetric metric, const Vector6d
   return sum;
 }
 
-NormalEquations linearized(const std::vector<Pair>& pairs, IcpMetric metric) {
+IcpNormalEquations linearized(const std::vector<Pair>& pairs, IcpMetric metric) {
   Linearization sum(metric, kThickness, kKernel_m);
   for (const Pair& pair : pairs) sum.add(pair.lever, pair.r, pair.n, pair.m);
   return sum.result();
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(All, IcpLinearization,
 TEST_P(IcpLinearization, GradientIsThatOfTheCost) {
   constexpr double kStep = 1e-6;
   const std::vector<Pair> pairs = randomPairs();
-  const NormalEquations equations = linearized(pairs, GetParam());
+  const IcpNormalEquations equations = linearized(pairs, GetParam());
   for (int a = 0; a < 6; ++a) {
     const Vector6d d = kStep * Vector6d::Unit(a);
     const double slope =
@@ -98,7 +98,7 @@ TEST_P(IcpLinearization, MatricesAreSumsOverNumericalJacobians) {
     planes += weight * J.transpose() * pair.n * pair.n.transpose() * J;
     weights += weight;
   }
-  const NormalEquations equations = linearized(pairs, GetParam());
+  const IcpNormalEquations equations = linearized(pairs, GetParam());
   EXPECT_LT((equations.H - H).norm(), 1e-7 * H.norm());
   EXPECT_LT((equations.point_to_plane - planes).norm(), 1e-7 * planes.norm());
   EXPECT_NEAR(equations.weights, weights, 1e-9);

@@ -8,7 +8,7 @@
 #include "SampleStamps.h"
 #include "lamp/simulation/Random.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 struct View {
@@ -79,4 +79,4 @@ std::vector<Sighting> seeArtifacts(const std::vector<Artifact>& artifacts,
   return sightings;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

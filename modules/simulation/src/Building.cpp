@@ -3,7 +3,7 @@
 
 #include "Worlds.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -129,4 +129,4 @@ void addBuilding(double ways_m, size_t gate, double lead_m, WorldBuilder& builde
   addStair(ground, upper, 1, false, -kStairwellM, builder);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

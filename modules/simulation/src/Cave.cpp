@@ -3,7 +3,7 @@
 
 #include "Worlds.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -57,4 +57,4 @@ void addCave(double ways_m, size_t gate, double lead_m, WorldBuilder& builder) {
   for (const size_t passage : passages) builder.addRubble(passage, 3.0, 0.6);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

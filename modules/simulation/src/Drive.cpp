@@ -6,7 +6,7 @@
 
 #include "lamp/simulation/Noise.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -202,4 +202,4 @@ std::vector<StampedPose> drive(const std::vector<Leg>& route, const RayCaster& w
   return poses;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

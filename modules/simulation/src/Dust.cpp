@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 
 double dustPerMetre(const LidarOptions& options, double stamp, uint64_t seed) {
   constexpr uint64_t kStream = 0xd057;
@@ -13,4 +13,4 @@ double dustPerMetre(const LidarOptions& options, double stamp, uint64_t seed) {
   return options.dust_per_m * rise * rise;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

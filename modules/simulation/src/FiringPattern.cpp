@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 /** By laser id, which is also the order of firing (VLP-16 manual, 63-9243, table 9-1). */
@@ -49,4 +49,4 @@ double FiringPattern::elevation(int laser) {
   return kElevations_deg[laser] * M_PI / 180.0;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -120,7 +120,7 @@ FreeSpace::Sample FreeSpace::smooth(const Vector3d& p, const Parts& parts) const
   if (const double overlap = blend - (second.distance_m - nearest.distance_m); overlap > 0)
     nearest.distance_m -= overlap * overlap / (4 * blend);
   for (const size_t i : parts.pillars)
-    nearest.distance_m = std::max(nearest.distance_m, -lamp::distanceTo(pillars_[i], p));
+    nearest.distance_m = std::max(nearest.distance_m, -lamp::simulation::distanceTo(pillars_[i], p));
   return nearest;
 }
 
@@ -136,4 +136,4 @@ double FreeSpace::rough(const Vector3d& p, const Sample& sample) const {
   return sample.distance_m + share * change;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

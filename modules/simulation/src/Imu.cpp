@@ -6,7 +6,7 @@
 #include "SampleStamps.h"
 #include "lamp/simulation/Random.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using Eigen::Vector3d;
@@ -76,4 +76,4 @@ std::vector<ImuReading> simulateImu(const TrajectoryInterpolator& truth, const I
   return readings;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

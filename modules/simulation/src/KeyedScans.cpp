@@ -5,7 +5,7 @@
 #include <numeric>
 #include <unordered_set>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -107,4 +107,4 @@ Scan keyedScan(const MissionRobot& robot, size_t key_node, const KeyedOptions& o
   return thinned(scan, static_cast<size_t>(options.max_points));
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

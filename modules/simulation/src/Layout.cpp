@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -44,4 +44,4 @@ double Layout::distanceToPassages(const Eigen::Vector3d& p) const {
   return nearest;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

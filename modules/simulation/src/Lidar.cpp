@@ -9,7 +9,7 @@
 #include "Reflectance.h"
 #include "SensorPath.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 constexpr double kRadians = M_PI / 180.0;
@@ -121,8 +121,8 @@ bool Lidar::measureSurface(const Ray& ray, const RayHit& hit, Random& random,
       returnProbability(surface, static_cast<float>(std::cos(options_.grazing_deg * kRadians)),
                         static_cast<float>(options_.max_range_m));
   if (!chance(random, returns * (1.0 - options_.dropout))) return false;
-  const double range = hit.range_m + lamp::normal(random, options_.range_sigma_m);
-  const double intensity = intensityOf(surface) + lamp::normal(random, options_.intensity_sigma);
+  const double range = hit.range_m + lamp::simulation::normal(random, options_.range_sigma_m);
+  const double intensity = intensityOf(surface) + lamp::simulation::normal(random, options_.intensity_sigma);
   if (range < options_.min_range_m || range > options_.max_range_m) return false;
   result.range_m = static_cast<float>(range);
   result.intensity = static_cast<float>(std::clamp(intensity, 1.0 / 255.0, 1.0));
@@ -143,4 +143,4 @@ std::vector<Eigen::Vector3f> deskew(const LidarSweep& sweep, const Lidar& lidar,
   return points;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

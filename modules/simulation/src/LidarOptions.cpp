@@ -1,6 +1,6 @@
 #include "lamp/simulation/Lidar.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 void LidarOptions::visit(OptionVisitor& v) {
   v("model", model, "a spinning lidar, or one whose mount rotates too",
@@ -32,4 +32,4 @@ void LidarOptions::visit(OptionVisitor& v) {
     "rotating mount: packets of 12 blocks that share one sensor pose", Range{1, 75});
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -89,4 +89,4 @@ std::vector<double> Link::arrivalTimes(const std::vector<double>& stamps,
   return arrivals;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -8,17 +8,17 @@
 
 #include "lamp/core/ScanOverlap.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
 constexpr double kSearchRangeM = 25.0, kNearM = 6.0, kLookAlikeM = 6.0;
 constexpr uint32_t kMinIndexGap = 10;
 constexpr double kTrueOverlap = 0.3, kFalseOverlap = 0.05;
-constexpr size_t kMostMeasured = 5;  ///< pairs measured for each one wanted
+constexpr size_t kMaxMeasured = 5;  ///< pairs measured for each one wanted
 
 struct KeyNode {
-  KeyframeId id;
+  KeyNodeId id;
   double stamp;
   Pose3 world_T_base;
 };
@@ -90,20 +90,20 @@ class PairCollector {
                 const std::vector<std::vector<KeyedScanPtr>>& scans)
       : nodes_(nodes), prepared_(nodes.size()) {
     tbb::parallel_for(size_t{0}, nodes.size(), [&](size_t i) {
-      const KeyframeId id = nodes[i].id;
+      const KeyNodeId id = nodes[i].id;
       prepared_[i] = std::make_unique<OverlapScan>(scans[id.robot.value][id.index]->points, false);
     });
   }
 
-  /** \param most_true, most_false of all that are collected. */
-  void collect(std::vector<Pair> pairs, bool look_alike, size_t most_true, size_t most_false) {
+  /** \param max_true, max_false of all that are collected. */
+  void collect(std::vector<Pair> pairs, bool look_alike, size_t max_true, size_t max_false) {
     constexpr size_t kBatch = 256;
     const auto known = [&](const Pair& pair) { return measured_.count(pair) > 0; };
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), known), pairs.end());
     // One kind may be so rare that there are not enough of it.
-    pairs.resize(std::min(pairs.size(), kMostMeasured * (most_true + most_false)));
+    pairs.resize(std::min(pairs.size(), kMaxMeasured * (max_true + max_false)));
     for (size_t begin = 0; begin < pairs.size(); begin += kBatch) {
-      if (true_count_ >= most_true && false_count_ >= most_false) return;
+      if (true_count_ >= max_true && false_count_ >= max_false) return;
       std::vector<LoopPair> batch(std::min(kBatch, pairs.size() - begin));
       for (size_t i = 0; i < batch.size(); ++i) measured_.insert(pairs[begin + i]);
       tbb::parallel_for(size_t{0}, batch.size(),
@@ -111,7 +111,7 @@ class PairCollector {
       for (const LoopPair& pair : batch) {
         if (!pair.same_place && pair.overlap >= kFalseOverlap) continue;
         size_t& count = pair.same_place ? true_count_ : false_count_;
-        if (count >= (pair.same_place ? most_true : most_false)) continue;
+        if (count >= (pair.same_place ? max_true : max_false)) continue;
         ++count;
         found_.push_back(pair);
       }
@@ -160,4 +160,4 @@ std::vector<LoopPair> findLoopPairs(const Mission& mission, const Layout& layout
   return collector.take();
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

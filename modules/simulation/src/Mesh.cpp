@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace lamp {
+namespace lamp::simulation {
 
 void Mesh::append(const Mesh& other) {
   const auto first = static_cast<uint32_t>(vertices.size());
@@ -19,4 +19,4 @@ Eigen::Vector3f Mesh::normal(size_t triangle) const {
   return length > 0 ? Eigen::Vector3f(cross / length) : Eigen::Vector3f(0, 0, 0);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

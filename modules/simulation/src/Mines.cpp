@@ -3,7 +3,7 @@
 
 #include "Worlds.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -155,4 +155,4 @@ void addLimestoneMine(double drives_m, size_t gate, double lead_m, WorldBuilder&
   }
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

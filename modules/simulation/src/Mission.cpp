@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -99,4 +99,4 @@ Mission makeMission(const SimConfig& config, const World& world, const RayCaster
   return mission;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -5,7 +5,7 @@
 
 #include "lamp/core/Geometry.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 inline mrpt::poses::CPose3D poseToMrpt(const Pose3& pose) {
   const Vector6d v = yawPitchRollFromPose(pose);
@@ -16,4 +16,4 @@ inline mrpt::Clock::time_point stampToMrpt(double stamp) {
   return mrpt::Clock::fromDouble(stamp);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

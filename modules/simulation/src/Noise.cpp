@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -56,4 +56,4 @@ double Noise::fractal(const Eigen::Vector3d& p, double wavelength_m, int octaves
   return sum;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

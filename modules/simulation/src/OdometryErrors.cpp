@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 /** A robot at rest creeps a little, so that covariances always grow: per square root of second. */
@@ -108,4 +108,4 @@ Matrix6d claimedStepCovariance(const OdometryStep& step, const OdometryOptions& 
   return Q;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

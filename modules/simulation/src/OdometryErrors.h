@@ -5,7 +5,7 @@
 #include "lamp/simulation/OdometryModel.h"
 #include "lamp/simulation/Random.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** True motion between two samples. */
 struct OdometryStep {
@@ -23,4 +23,4 @@ std::vector<Vector6d> drawStepErrors(const std::vector<OdometryStep>& steps,
 /** What a step adds to the covariance at factor 1: white noise in place of the real errors. */
 Matrix6d claimedStepCovariance(const OdometryStep& step, const OdometryOptions& options);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -5,7 +5,7 @@
 #include "OdometryErrors.h"
 #include "SampleStamps.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 constexpr double kMaxErrorScale = 50.0;
@@ -126,4 +126,4 @@ SimulatedOdometry simulateOdometry(const TrajectoryInterpolator& truth,
   return result;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -1,6 +1,6 @@
 #include "lamp/simulation/OdometryModel.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 void OdometryOptions::visit(OptionVisitor& v) {
   v("rate_hz", rate_hz, "Hz", "poses per second", kPositive);
@@ -27,4 +27,4 @@ void OdometryOptions::visit(OptionVisitor& v) {
     "the sigmas of the covariances times this: 1 is honest, 0.1 and 10 are not", kPositive);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

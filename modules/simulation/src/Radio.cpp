@@ -6,7 +6,7 @@
 #include "SampleStamps.h"
 #include "lamp/simulation/Random.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 void RadioOptions::visit(OptionVisitor& v) {
   v("beacon_spacing_m", beacon_spacing_m, "m", "way after which a robot drops a beacon", kPositive);
@@ -67,4 +67,4 @@ std::vector<RssiReading> Radio::listen(const TrajectoryInterpolator& truth,
   return readings;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -1,6 +1,6 @@
 #include "lamp/simulation/Random.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 uint64_t mixSeeds(std::initializer_list<uint64_t> parts) {
   // The finaliser of SplitMix64 (Steele, Lea, Flood 2014) over the running sum.
@@ -14,4 +14,4 @@ uint64_t mixSeeds(std::initializer_list<uint64_t> parts) {
   return state;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace lamp {
+namespace lamp::simulation {
 
 struct RayCaster::Scene {
   // Not "threads=1": Embree would set that limit for all of TBB.
@@ -85,4 +85,4 @@ bool RayCaster::visible(const Eigen::Vector3f& from, const Eigen::Vector3f& to) 
   return ray.tfar >= 0;  // Embree marks an occluded ray with minus infinity
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -14,7 +14,7 @@
 #include "lamp/simulation/SensorObservations.h"
 #include "lamp/simulation/VelodyneObservation.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -126,4 +126,4 @@ void writeRawRecording(const std::string& path, const MissionRobot& robot, const
   });
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

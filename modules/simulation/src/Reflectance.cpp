@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 constexpr float kRockAlbedo = 0.25f, kConcreteAlbedo = 0.32f, kMetalAlbedo = 0.12f;
@@ -70,4 +70,4 @@ float returnProbability(const LitSurface& surface, float cos_grazing, float max_
   return std::min(1.0f, ratio * ratio);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

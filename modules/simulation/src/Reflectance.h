@@ -4,7 +4,7 @@
 
 #include "lamp/simulation/Mesh.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** A surface as a lidar's beam meets it. */
 struct LitSurface {
@@ -26,4 +26,4 @@ float intensityOf(const LitSurface& surface);
  * `max_range_m`. */
 float returnProbability(const LitSurface& surface, float cos_grazing, float max_range_m);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

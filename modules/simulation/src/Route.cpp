@@ -5,7 +5,7 @@
 #include <queue>
 #include <stdexcept>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -143,4 +143,4 @@ std::vector<std::vector<Leg>> planRoutes(const Layout& layout, const std::vector
   return routes;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

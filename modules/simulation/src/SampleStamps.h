@@ -5,7 +5,7 @@
 
 #include "lamp/core/Trajectory.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** `begin`, then one stamp every `1/rate_hz` seconds up to the end of a trajectory.
  * \throws std::runtime_error unless the rate is positive. */
@@ -21,4 +21,4 @@ inline std::vector<double> sampleStamps(const TrajectoryInterpolator& trajectory
   return stamps;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -10,7 +10,7 @@
 #include "MrptConversions.h"
 #include "lamp/core/GraphFiles.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 using namespace mrpt::obs;
 
@@ -90,4 +90,4 @@ std::vector<std::shared_ptr<CObservationBearingRange>> artifactObservations(
   return observations;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace lamp {
+namespace lamp::simulation {
 
 SensorPath::SensorPath(const std::function<Pose3(double)>& poseAt, double begin, double duration) {
   constexpr int kIntervals = 32;
@@ -30,4 +30,4 @@ Eigen::Isometry3f SensorPath::at(double delay) const {
   return pose;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -5,7 +5,7 @@
 
 #include "lamp/core/Geometry.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** A sensor's pose during a sweep. Poses of a few times are exact, those between are linear in
  * translation and quaternion, which is good to micrometres over the 3 ms between and costs a
@@ -26,4 +26,4 @@ class SensorPath {
   std::vector<Support> supports_;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -8,7 +8,7 @@
 #include "lamp/core/Version.h"
 #include "lamp/simulation/SimRun.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -87,4 +87,4 @@ int simApp(int argc, char** argv) {
   return runProgram(app, argc, argv, [&] { run(arguments); });
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <iterator>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
-constexpr int kMostRobots = 16;
+constexpr int kMaxRobots = 16;
 const std::string kLidarPrefix = "lidar.";
 const char* const kRobotPrefixes[] = {"robot.", "drive.", "odometry."};
 
@@ -72,7 +72,7 @@ void checkSections(const Ini& ini, const SimConfig& config, bool team_known, Fau
 }  // namespace
 
 void WorldOptions::visit(OptionVisitor& v) {
-  v("robots", robots, "", "size of the team; 0 for the paper's", {0, kMostRobots});
+  v("robots", robots, "", "size of the team; 0 for the paper's", {0, kMaxRobots});
   v("distance_scale", distance_scale, "", "factor of the paper's distances, and so of the world",
     {0.05, 20});
   v("cell_m", cell_m, "m", "size of the walls' triangles; 0 for what suits the world", {0, 1});
@@ -156,4 +156,4 @@ double SimConfig::truthSpacingM() const {
   return world.truth_spacing_m > 0 ? world.truth_spacing_m : 0.6 * cellM();
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -14,7 +14,7 @@
 #include "lamp/simulation/Recording.h"
 #include "lamp/simulation/TruthFiles.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -137,4 +137,4 @@ std::string simulate(const SimConfig& config, const SimJob& job) {
   return arena.execute([&] { return Simulation(config, job).run(); });
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

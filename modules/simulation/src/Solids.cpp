@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -97,4 +97,4 @@ Mesh plate(const Eigen::Isometry3d& world_T_plate, const Eigen::Vector2d& size, 
   return mesh;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -160,4 +160,4 @@ Mesh wallMesh(const FreeSpace& space, double cell_m) {
   return mesh;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -9,7 +9,7 @@
 #include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -103,7 +103,7 @@ std::string loopPairsCsv(const std::vector<LoopPair>& pairs, const Mission& miss
   CsvTable table{{"from", "to", "from_stamp", "to_stamp", "x", "y", "z", "qx", "qy", "qz", "qw",
                   "overlap", "pair", "look_alike"},
                  {}};
-  const auto name = [&](KeyframeId id) {
+  const auto name = [&](KeyNodeId id) {
     return mission.robots[id.robot.value].name + ":" + std::to_string(id.index);
   };
   for (const LoopPair& pair : pairs) {
@@ -152,4 +152,4 @@ std::string slamIni(const Mission& mission, bool keyed) {
   return text;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -8,7 +8,7 @@
 #include "MrptConversions.h"
 #include "VelodynePackets.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using mrpt::obs::CObservationVelodyneScan;
@@ -60,4 +60,4 @@ std::vector<std::shared_ptr<CObservationVelodyneScan>> velodyneObservations(
   return observations;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

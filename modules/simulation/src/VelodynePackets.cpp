@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 constexpr size_t kBlockSize = 100, kBlockHeader = 4, kReturnSize = 3;
@@ -66,4 +66,4 @@ std::vector<VelodynePacket> velodynePackets(const LidarSweep& sweep, const Firin
   return packets;
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

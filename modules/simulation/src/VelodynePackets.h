@@ -6,7 +6,7 @@
 
 #include "lamp/simulation/Lidar.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** The payload of a data packet, byte for byte (VLP-16 manual, 63-9243, chapter 9). */
 struct VelodynePacket {
@@ -18,4 +18,4 @@ struct VelodynePacket {
 /** All packets of a sweep, in order; what the last one does not need stays without returns. */
 std::vector<VelodynePacket> velodynePackets(const LidarSweep& sweep, const FiringPattern& pattern);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -6,7 +6,7 @@
 
 #include "lamp/simulation/SurfaceNets.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -272,4 +272,4 @@ World WorldBuilder::build(double cell_m) {
   return std::move(world_);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

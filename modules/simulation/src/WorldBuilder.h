@@ -7,7 +7,7 @@
 #include "lamp/simulation/Solids.h"
 #include "lamp/simulation/World.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Cross-section and walls of a passage. */
 struct PassageStyle {
@@ -76,4 +76,4 @@ class WorldBuilder {
   std::vector<Eigen::AlignedBox3d> solids_;  ///< boxes around what was added
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

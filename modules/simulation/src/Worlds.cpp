@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace lamp {
+namespace lamp::simulation {
 
 namespace {
 
@@ -128,4 +128,4 @@ const WorldKind& worldKind(const std::string& name) {
   throw std::runtime_error("there is no world '" + name + "'; known: " + known);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -2,7 +2,7 @@
 
 #include "WorldBuilder.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Narrow coal-mine drives with rough walls and regular cross-cuts, `drives_m` long together; the
  * first junction lies `lead_m` along x from the place `gate`. */
@@ -21,4 +21,4 @@ World makeFinals(double length_m, double cell_m, uint64_t seed);
 World makeKu(double length_m, double cell_m, uint64_t seed);
 World makeDemo(double length_m, double cell_m, uint64_t seed);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -5,7 +5,7 @@
 #include "TestMesh.h"
 #include "TestMotion.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -72,4 +72,4 @@ TEST(Artifacts, NothingToSeeNothingSeen) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -7,7 +7,7 @@
 #include "TestHollow.h"
 #include "lamp/simulation/SurfaceNets.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using Eigen::Vector3d;
@@ -34,7 +34,7 @@ class DriveTest : public testing::Test {
 
   std::vector<StampedPose> drive(const std::vector<Leg>& legs, const DriveOptions& options,
                                  uint64_t seed = 1) const {
-    return lamp::drive(legs, caster_, options, kStart, seed);
+    return lamp::simulation::drive(legs, caster_, options, kStart, seed);
   }
   std::vector<StampedPose> drive(const DriveOptions& options, uint64_t seed = 1) const {
     return drive(route(), options, seed);
@@ -224,4 +224,4 @@ TEST_F(DriveTest, ARouteWithoutLengthIsAFault) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -7,7 +7,7 @@
 
 #include "TestHollow.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -129,4 +129,4 @@ TEST(FreeSpace, RoughnessMovesWallsByNoMoreThanItSaysAndFloorsLess) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -4,7 +4,7 @@
 
 #include "TestMotion.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -87,4 +87,4 @@ TEST(Imu, ATruthOfOnePoseIsRest) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -11,7 +11,7 @@
 #include "TestMesh.h"
 #include "TestMotion.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -156,4 +156,4 @@ TEST(KeyedScan, LidarsHaveSeedsOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -6,7 +6,7 @@
 
 #include "TestLayout.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -38,4 +38,4 @@ TEST(Layout, DistanceToPassagesIsHorizontalAndOnTheSameFloor) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -10,7 +10,7 @@
 #include "TestMesh.h"
 #include "TestMotion.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -325,4 +325,4 @@ TEST(Lidar, RefusesOptionsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

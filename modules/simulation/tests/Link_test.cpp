@@ -7,7 +7,7 @@
 #include "TestMesh.h"
 #include "TestMotion.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -96,4 +96,4 @@ TEST(Link, ABatchThatTheMissionCutsShortArrivesInOrder) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -10,7 +10,7 @@
 
 #include "SmallMission.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -22,11 +22,11 @@ const std::vector<LoopPair>& sharedPairs() {
   return pairs;
 }
 
-const Scan& scanOf(KeyframeId id) {
+const Scan& scanOf(KeyNodeId id) {
   return *SmallMission::shared().scans[id.robot.value][id.index];
 }
 
-Pose3 truthOf(KeyframeId id) {
+Pose3 truthOf(KeyNodeId id) {
   const MissionRobot& robot = SmallMission::shared().mission.robots[id.robot.value];
   return robot.truth.at(robot.stampOf(id.index));
 }
@@ -152,7 +152,7 @@ TEST(LoopPairs, FalseOnesIncludeLookAlikePlaces) {
     ++alike;
     EXPECT_FALSE(pair.same_place);
     EXPECT_GT(pair.from_T_to.translation().norm(), 25);
-    for (const KeyframeId id : {pair.from, pair.to}) {
+    for (const KeyNodeId id : {pair.from, pair.to}) {
       const Vector3d at = truthOf(id).translation();
       EXPECT_LT(std::min((at - start).norm(), (at - farthest).norm()), 6);
     }
@@ -174,7 +174,7 @@ TEST(LoopPairs, AreNoMoreThanAsked) {
 TEST(LoopPairs, TheSeedDecidesWhichOnes) {
   const SmallMission& small = SmallMission::shared();
   const auto ends = [&](uint64_t seed) {
-    std::vector<std::pair<KeyframeId, KeyframeId>> ids;
+    std::vector<std::pair<KeyNodeId, KeyNodeId>> ids;
     for (const LoopPair& p :
          findLoopPairs(small.mission, small.world.layout, small.scans, 20, seed))
       ids.emplace_back(p.from, p.to);
@@ -185,4 +185,4 @@ TEST(LoopPairs, TheSeedDecidesWhichOnes) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -9,6 +9,8 @@
 
 namespace lamp::test {
 
+using namespace simulation;
+
 /** Even in all directions. */
 inline std::vector<Eigen::Vector3f> randomDirections(size_t count, unsigned seed) {
   std::mt19937 random(seed);

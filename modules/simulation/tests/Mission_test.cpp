@@ -6,7 +6,7 @@
 
 #include "SmallMission.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -125,4 +125,4 @@ TEST(Mission, TheSeedDecidesTheMission) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

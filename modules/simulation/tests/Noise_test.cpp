@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 constexpr double kWavelength = 1.7;
@@ -99,4 +99,4 @@ TEST(Noise, EachOctaveAddsHalfTheHeightAtHalfTheWavelength) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

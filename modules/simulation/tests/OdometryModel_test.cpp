@@ -9,7 +9,7 @@
 
 #include "TestMotion.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -215,4 +215,4 @@ TEST(OdometryModel, ATruthOfOnePoseGivesOnePose) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -5,7 +5,7 @@
 #include "TestMesh.h"
 #include "TestMotion.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -81,4 +81,4 @@ TEST(Radio, ShadowingHasItsSigmaAndItsSeed) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

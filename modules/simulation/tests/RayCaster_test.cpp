@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 /** A wall of 2 x 2 m at x = `distance`, facing the origin. */
@@ -53,4 +53,4 @@ TEST(RayCaster, AWallHidesWhatIsBehindIt) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -8,7 +8,7 @@
 
 #include "TestLayout.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -164,4 +164,4 @@ TEST(Route, AGateWithoutPassagesIsAFault) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -9,7 +9,7 @@
 #include "TestMotion.h"
 #include "lamp/core/GraphFiles.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -92,4 +92,4 @@ TEST(SensorObservations, WhatIsSeenAtOneStampIsOneObservation) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -10,7 +10,7 @@
 #include "lamp/simulation/OdometryModel.h"
 #include "lamp/simulation/Radio.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 /** Checks that each key comes once, with a meaning, and that its default is allowed. */
@@ -60,4 +60,4 @@ TYPED_TEST(SensorOptions, DefaultsAreAllowedAndKeysComeOnce) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

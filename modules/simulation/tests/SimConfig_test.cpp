@@ -7,7 +7,7 @@
 
 #include "SmallMission.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -156,4 +156,4 @@ TEST(SimConfig, ARobotNeedsALidar) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

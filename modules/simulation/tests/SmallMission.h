@@ -6,6 +6,8 @@
 
 namespace lamp::test {
 
+using namespace simulation;
+
 inline SimConfig configOf(const std::string& kind, const std::string& ini_text) {
   Faults faults;
   const Ini ini = Ini::fromText(ini_text, "test.ini", faults);

@@ -7,7 +7,7 @@
 #include "MeshTools.h"
 #include "lamp/core/Geometry.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -122,4 +122,4 @@ TEST(Solids, NoTwoBouldersAreAlike) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -8,7 +8,7 @@
 #include "MeshTools.h"
 #include "TestHollow.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -152,4 +152,4 @@ TEST(SurfaceNets, ACoarseAndAFineMeshAgree) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -6,6 +6,8 @@
 
 namespace lamp::test {
 
+using namespace simulation;
+
 inline Hollow hollow(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double width_m = 3,
                      double height_m = 3, const WallStyle& style = {}) {
   Hollow hollow;

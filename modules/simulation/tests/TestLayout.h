@@ -4,6 +4,8 @@
 
 namespace lamp::test {
 
+using namespace simulation;
+
 inline void addPassage(Layout& layout, size_t from, size_t to, double width_m,
                        const std::vector<Eigen::Vector3d>& between = {}) {
   Passage passage;

@@ -4,6 +4,8 @@
 
 namespace lamp::test {
 
+using namespace simulation;
+
 /** Two triangles; a, b, c, d counter-clockwise seen from free space. */
 inline void addQuad(Mesh& mesh, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
                     const Eigen::Vector3f& c, const Eigen::Vector3f& d,

@@ -7,6 +7,8 @@
 
 namespace lamp::test {
 
+using namespace simulation;
+
 constexpr double kBegin = 1.7e9;
 
 /** Samples a motion from `kBegin` on, every 10 ms. \param pose by seconds since the begin. */

@@ -12,7 +12,7 @@
 #include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -192,4 +192,4 @@ TEST_F(TruthFiles, TheExperimentFileNamesTheRobots) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

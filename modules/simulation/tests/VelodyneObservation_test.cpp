@@ -8,7 +8,7 @@
 #include "TestMesh.h"
 #include "TestMotion.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -155,4 +155,4 @@ TEST(VelodyneObservation, ASweepWithoutReturnsIsStillASweep) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

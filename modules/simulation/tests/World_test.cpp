@@ -10,7 +10,7 @@
 #include "MeshTools.h"
 #include "lamp/simulation/Drive.h"
 
-namespace lamp {
+namespace lamp::simulation {
 namespace {
 
 using namespace test;
@@ -251,4 +251,4 @@ TEST(WorldKinds, AnUnknownOneIsAFaultThatListsTheKnown) {
 }
 
 }  // namespace
-}  // namespace lamp
+}  // namespace lamp::simulation

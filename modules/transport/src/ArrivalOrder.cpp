@@ -33,7 +33,7 @@ bool ArrivalOrder::nextOfAllRobotsIsKnown() const {
 }
 
 void ArrivalOrder::hold(Message message) {
-  if (const auto* packet = std::get_if<KeyframePacket>(&message)) {
+  if (const auto* packet = std::get_if<KeyNodePacket>(&message)) {
     Robot& robot = robots_[packet->id.robot];
     // Stamps that go back, in a damaged recording, must not change a robot's own order.
     robot.last_arrival = std::max(robot.last_arrival, robot.times.at(packet->stamp));

@@ -17,7 +17,7 @@ using testing::IsEmpty;
 constexpr RobotId kA{0}, kB{1}, kC{2};
 
 Message node(RobotId robot, uint32_t index, double stamp) {
-  KeyframePacket packet;
+  KeyNodePacket packet;
   packet.id = {robot, index};
   packet.stamp = stamp;
   return packet;
@@ -32,7 +32,7 @@ std::string nameOf(const Message& message) {
   const auto letter = [](RobotId robot) {
     return std::string(1, static_cast<char>('A' + robot.value));
   };
-  if (const auto* packet = std::get_if<KeyframePacket>(&message))
+  if (const auto* packet = std::get_if<KeyNodePacket>(&message))
     return letter(packet->id.robot) + std::to_string(packet->id.index);
   return letter(std::get<RobotEnd>(message).robot) + ".";
 }
@@ -126,7 +126,7 @@ std::vector<std::string> sorted(const std::vector<Message>& messages,
   std::vector<Entry> entries;
   std::map<RobotId, double> last;
   for (const Message& message : messages) {
-    if (const auto* packet = std::get_if<KeyframePacket>(&message)) {
+    if (const auto* packet = std::get_if<KeyNodePacket>(&message)) {
       last[packet->id.robot] = arrivals.at(packet->id.robot).at(packet->stamp);
       entries.push_back({last[packet->id.robot], packet->id.robot, nameOf(message)});
     } else {

@@ -7,8 +7,8 @@
 namespace lamp {
 namespace {
 
-KeyframePacket packet(uint32_t index) {
-  KeyframePacket result;
+KeyNodePacket packet(uint32_t index) {
+  KeyNodePacket result;
   result.id = {RobotId{0}, index};
   return result;
 }
@@ -24,7 +24,7 @@ TEST(InProcessQueue, KeepsOrderAcrossThreads) {
   uint32_t expected = 0;
   bool ended = false;
   while (const auto message = queue.receive()) {
-    if (const auto* p = std::get_if<KeyframePacket>(&*message)) {
+    if (const auto* p = std::get_if<KeyNodePacket>(&*message)) {
       EXPECT_EQ(p->id.index, expected++);
     } else {
       ended = true;

@@ -4,7 +4,7 @@
 #include <mrpt/system/CTimeLogger.h>
 
 #include <atomic>
-#include <map>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -12,15 +12,30 @@
 #include "lamp/base_station/ExtraEdges.h"
 #include "lamp/base_station/Ledger.h"
 #include "lamp/base_station/OperatorState.h"
-#include "lamp/base_station/SlamConfig.h"
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/base_station/RobotTracks.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/core/PoseGraph.h"
 #include "lamp/core/UncertaintyQuery.h"
+#include "lamp/loop_candidates/CandidateGenerator.h"
 #include "lamp/loop_priority/CandidateQueue.h"
+#include "lamp/loop_priority/Prioritizer.h"
+#include "lamp/pose_graph/BackEnd.h"
 #include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/registration/PreparedScanStore.h"
 
 namespace lamp {
+
+/** What a base station is made of. Stages may keep state, so each base station needs its own. */
+struct BaseStationSetup {
+  BaseStationOptions options;
+  bool inter_robot_loops = true;
+  std::vector<std::shared_ptr<CandidateGenerator>> candidates;
+  std::shared_ptr<Prioritizer> priority;
+  PreparationOptions preparation;
+  LoopClosureComputation computation;
+  BackEnd back_end;
+  ExtraEdges extra_edges;
+};
 
 /** The multi-robot front end and back end of the paper (II-C, II-D), driven by arriving key nodes:
  * register the node, find and compute its loop closures, optimise when enough has been learnt.
@@ -30,9 +45,9 @@ namespace lamp {
  */
 class BaseStation : public mrpt::system::COutputLogger {
  public:
-  BaseStation(const SlamConfig& config, mrpt::system::CTimeLogger& timer);
+  BaseStation(BaseStationSetup setup, mrpt::system::CTimeLogger& timer);
 
-  void receive(const KeyframePacket& packet);
+  void receive(const KeyNodePacket& packet);
   void receive(const RobotEnd& end);
   /** Does what an operator asked for, and optimises. \return `done`, or why it cannot be done. */
   std::string apply(const OperatorAction& action, const RobotTable& robots);
@@ -46,24 +61,12 @@ class BaseStation : public mrpt::system::COutputLogger {
   size_t optimizations() const { return optimization_count_; }
   const OptimizationReport& lastReport() const { return report_; }
   PreparationReport preparation() const { return scans_.report(); }
-  /** Key nodes with their scans, in KeyframeId order. */
-  const std::map<KeyframeId, KeyframePacket>& packets() const { return packets_; }
-
-  /** Optimised trajectory of a robot, one pose a lidar scan: scans between key nodes follow
-   * odometry, with the correction blended between their neighbours. */
-  std::vector<StampedPose> trajectory(RobotId robot) const;
-  std::vector<StampedPose> keyframeTrajectory(RobotId robot) const;
-  /** Dead reckoning from the robot's start pose, one pose a lidar scan. */
-  std::vector<StampedPose> odometryTrajectory(RobotId robot) const;
+  const RobotTracks& tracks() const { return tracks_; }
 
  private:
-  void registerNode(const KeyframePacket& packet);
-  void propose(KeyframeId id);
+  void propose(KeyNodeId id);
   bool isWorthTrying(const LoopClosureCandidate& candidate) const;
   void computeRound(size_t budget);
-  std::vector<Guess> guesses(const std::vector<LoopClosureCandidate>& candidates,
-                             const UncertaintyQuery& uncertainty) const;
-  Guess guess(const LoopClosureCandidate& candidate) const;
   void record(const LoopClosureCandidate& candidate, const Guess& guess, LoopClosureAttempt attempt,
               size_t rank);
   bool optimizationDue() const;
@@ -72,8 +75,10 @@ class BaseStation : public mrpt::system::COutputLogger {
 
   const BaseStationOptions options_;
   const bool inter_robot_loops_;
-  const Stages stages_;
+  const std::vector<std::shared_ptr<CandidateGenerator>> generators_;
+  const std::shared_ptr<Prioritizer> priority_;
   const LoopClosureComputation computation_;
+  const BackEnd back_end_;
   mrpt::system::CTimeLogger& timer_;
 
   PoseGraph graph_;
@@ -83,10 +88,9 @@ class BaseStation : public mrpt::system::COutputLogger {
   ExtraEdges extra_edges_;
   OperatorState operator_;
   std::vector<ActionRecord> actions_;
-  std::map<KeyframeId, KeyframePacket> packets_;
-  std::map<RobotId, std::vector<StampedPose>> trailing_scans_;
+  RobotTracks tracks_;
   /** Where each key node stood when candidates were last sought for it. */
-  std::unordered_map<KeyframeId, Eigen::Vector3d> proposed_at_;
+  std::unordered_map<KeyNodeId, Eigen::Vector3d> proposed_at_;
 
   size_t round_ = 0;
   size_t candidate_count_ = 0;

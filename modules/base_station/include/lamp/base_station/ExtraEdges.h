@@ -3,7 +3,7 @@
 #include <map>
 #include <vector>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/core/PoseGraph.h"
 #include "lamp/input/RobotOptions.h"
 
@@ -18,13 +18,13 @@ class ExtraEdges {
 
   /** \param extras in the frame of key node `id`, which is in the graph.
    * \param packets of all key nodes in the graph. \return whether the graph has new edges. */
-  bool add(KeyframeId id, const KeyframeExtras& extras,
-           const std::map<KeyframeId, KeyframePacket>& packets, PoseGraph& graph);
+  bool add(KeyNodeId id, const KeyNodeExtras& extras,
+           const std::map<KeyNodeId, KeyNodePacket>& packets, PoseGraph& graph);
 
  private:
   /** A distance to a robot whose key node after it has not come yet. */
   struct OpenRange {
-    KeyframeId from;
+    KeyNodeId from;
     RangeReading reading;
   };
   struct Carrier {
@@ -32,7 +32,7 @@ class ExtraEdges {
     Eigen::Vector3d base_p_beacon;
   };
 
-  bool close(const OpenRange& range, const std::map<KeyframeId, KeyframePacket>& packets,
+  bool close(const OpenRange& range, const std::map<KeyNodeId, KeyNodePacket>& packets,
              PoseGraph& graph) const;
   LandmarkIndex beacon(int id, PoseGraph& graph) const;
 

@@ -43,7 +43,7 @@ class Ledger {
 
   const std::vector<LedgerRow>& rows() const { return rows_; }
   /** Attempts at a pair so far, latest last. */
-  std::vector<const LedgerRow*> attempts(KeyframeId from, KeyframeId to) const;
+  std::vector<const LedgerRow*> attempts(KeyNodeId from, KeyNodeId to) const;
 
   /** The latest accepted attempt at a pair; null if there is none. */
   const LedgerRow* accepted(size_t loop_id) const;
@@ -54,7 +54,7 @@ class Ledger {
  private:
   std::vector<LedgerRow> rows_;
   std::vector<VerdictChange> changes_;
-  std::map<std::pair<KeyframeId, KeyframeId>, std::vector<size_t>> by_pair_;
+  std::map<std::pair<KeyNodeId, KeyNodeId>, std::vector<size_t>> by_pair_;
   std::map<EdgeIndex, size_t> by_edge_;
 };
 

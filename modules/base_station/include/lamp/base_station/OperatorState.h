@@ -22,11 +22,11 @@ class OperatorState {
   /** One flag for each edge: not those of loops removed, vetoed, or of robots ignored. */
   std::vector<bool> admitted(const PoseGraph& graph) const;
   /** Whether a loop closure between the two may be searched. */
-  bool maySearch(KeyframeId from, KeyframeId to) const;
+  bool maySearch(KeyNodeId from, KeyNodeId to) const;
   bool removed(EdgeIndex edge) const { return removed_.count(edge) != 0; }
 
  private:
-  using Pair = std::pair<KeyframeId, KeyframeId>;
+  using Pair = std::pair<KeyNodeId, KeyNodeId>;
 
   std::string change(const OperatorAction& action, size_t round, const RobotTable& robots,
                      PoseGraph& graph, Ledger& ledger);

@@ -19,15 +19,15 @@ struct RobotId {
 };
 
 /** A key node: the robot and the key node's sequential index on that robot, from 0. */
-struct KeyframeId {
+struct KeyNodeId {
   RobotId robot;
   uint32_t index = 0;
 
-  friend bool operator==(KeyframeId a, KeyframeId b) {
+  friend bool operator==(KeyNodeId a, KeyNodeId b) {
     return a.robot == b.robot && a.index == b.index;
   }
-  friend bool operator!=(KeyframeId a, KeyframeId b) { return !(a == b); }
-  friend bool operator<(KeyframeId a, KeyframeId b) {
+  friend bool operator!=(KeyNodeId a, KeyNodeId b) { return !(a == b); }
+  friend bool operator<(KeyNodeId a, KeyNodeId b) {
     return std::tie(a.robot, a.index) < std::tie(b.robot, b.index);
   }
 };
@@ -51,14 +51,14 @@ class RobotTable {
   char letter(RobotId robot) const { return robots_.at(robot.value).letter; }
 
   /** `name:index`, the form used in all text files. */
-  std::string format(KeyframeId id) const;
+  std::string format(KeyNodeId id) const;
   /** Inverse of format(). \throws std::runtime_error naming the text. */
-  KeyframeId parse(const std::string& text) const;
+  KeyNodeId parse(const std::string& text) const;
 
-  uint64_t symbol(KeyframeId id) const;
+  uint64_t symbol(KeyNodeId id) const;
   /** Inverse of symbol(). \throws std::runtime_error if no robot has the letter, or the index has
    *  more than 32 bits. */
-  KeyframeId fromSymbol(uint64_t symbol) const;
+  KeyNodeId fromSymbol(uint64_t symbol) const;
 
  private:
   struct Robot {
@@ -81,8 +81,8 @@ struct std::hash<lamp::RobotId> {
   size_t operator()(lamp::RobotId id) const noexcept { return id.value; }
 };
 template <>
-struct std::hash<lamp::KeyframeId> {
-  size_t operator()(lamp::KeyframeId id) const noexcept {
+struct std::hash<lamp::KeyNodeId> {
+  size_t operator()(lamp::KeyNodeId id) const noexcept {
     return (static_cast<size_t>(id.robot.value) << 32) | id.index;
   }
 };

@@ -12,7 +12,7 @@ namespace lamp {
 /** A pair of key nodes that may see the same place. `from` is the older one, the target of the
  * registration; `to` the newer one, its source. */
 struct LoopClosureCandidate {
-  KeyframeId from, to;
+  KeyNodeId from, to;
   std::string generator;  ///< the stage that proposed it
   double priority = 0;    ///< set by the prioritizer; larger is sooner
 };

@@ -29,7 +29,7 @@ enum class Verdict { kPending, kInlier, kOutlier };
 const char* toString(Verdict verdict);
 
 struct Node {
-  KeyframeId id;
+  KeyNodeId id;
   double stamp = 0;                        ///< seconds, UTC
   Pose3 world_T_base = Pose3::Identity();  ///< the current estimate
   Pose3 odom_T_base = Pose3::Identity();   ///< dead reckoning since the robot's first scan
@@ -51,7 +51,7 @@ using LandmarkIndex = size_t;
 
 struct Edge {
   EdgeType type = EdgeType::kOdometry;
-  KeyframeId from, to;
+  KeyNodeId from, to;
   /** kPrior: world_T_base. kGravity: the same, of which the yaw does not count. kPosition,
    * kBearingRange: a translation, from_p_landmark. kRange, kRobotRange: a translation along x by
    * the distance. */
@@ -85,8 +85,8 @@ struct Edge {
 
 /** Key nodes of all robots that trusted edges join, largest component first. */
 struct Component {
-  std::vector<KeyframeId> nodes;  ///< in KeyframeId order
-  std::vector<RobotId> robots;    ///< in RobotId order
+  std::vector<KeyNodeId> nodes;  ///< in KeyNodeId order
+  std::vector<RobotId> robots;   ///< in RobotId order
 };
 
 /** Typed pose graph of a team: any number of edges between the same nodes, any number of
@@ -109,14 +109,14 @@ class PoseGraph {
   const std::vector<Edge>& edges() const { return edges_; }
   std::vector<Edge>& edges() { return edges_; }
 
-  bool contains(KeyframeId id) const { return place_.count(id) != 0; }
-  const Node& node(KeyframeId id) const { return nodes_[place(id)]; }
-  Node& node(KeyframeId id) { return nodes_[place(id)]; }
+  bool contains(KeyNodeId id) const { return place_.count(id) != 0; }
+  const Node& node(KeyNodeId id) const { return nodes_[place(id)]; }
+  Node& node(KeyNodeId id) { return nodes_[place(id)]; }
   /** Place in nodes(). \throws std::out_of_range. */
-  size_t place(KeyframeId id) const { return place_.at(id); }
+  size_t place(KeyNodeId id) const { return place_.at(id); }
 
   /** Key nodes of one robot in index order. */
-  const std::vector<KeyframeId>& robotNodes(RobotId robot) const;
+  const std::vector<KeyNodeId>& robotNodes(RobotId robot) const;
   std::vector<RobotId> robots() const;
 
   /** Where poses of both robots can be compared: one robot, two robots with a start pose, or robots
@@ -135,8 +135,8 @@ class PoseGraph {
   std::vector<Edge> edges_;
   std::vector<Landmark> landmarks_;
   std::unordered_map<std::string, LandmarkIndex> landmark_by_name_;
-  std::unordered_map<KeyframeId, size_t> place_;
-  std::unordered_map<RobotId, std::vector<KeyframeId>> by_robot_;
+  std::unordered_map<KeyNodeId, size_t> place_;
+  std::unordered_map<RobotId, std::vector<KeyNodeId>> by_robot_;
 };
 
 }  // namespace lamp

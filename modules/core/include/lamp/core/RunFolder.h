@@ -28,9 +28,9 @@ class RunFolder {
   std::string graphMrpt() const { return root_ + "/graph.graph"; }
   std::string graphIds() const { return root_ + "/graph_ids.csv"; }
   std::string trajectory(const std::string& robot) const;
-  std::string keyframeTrajectory(const std::string& robot) const;
+  std::string keyNodeTrajectory(const std::string& robot) const;
   std::string odometryTrajectory(const std::string& robot) const;
-  std::string keyframes(const std::string& robot) const;
+  std::string keyNodes(const std::string& robot) const;
   /** Path without extension: `maps/map` for the largest component (rank 0), `maps/map_2` for the
    * next. */
   std::string mapStem(size_t component_rank) const;

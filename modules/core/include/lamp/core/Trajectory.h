@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 
 namespace lamp {
 

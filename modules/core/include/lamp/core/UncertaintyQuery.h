@@ -16,7 +16,7 @@ class UncertaintyQuery {
   /** Covariance of `from_T_to[k]` in its tangent space, for each k; none where the graph has no
    * path from `from`, over edges or over start priors. */
   virtual std::vector<std::optional<Matrix6d>> relativeCovariances(
-      KeyframeId from, const std::vector<KeyframeId>& to) const = 0;
+      KeyNodeId from, const std::vector<KeyNodeId>& to) const = 0;
 };
 
 }  // namespace lamp

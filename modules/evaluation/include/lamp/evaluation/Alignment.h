@@ -5,7 +5,7 @@
 
 #include "lamp/evaluation/TimeJoin.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** How an estimate is laid onto the truth before it is compared. */
 enum class Alignment {
@@ -35,4 +35,4 @@ struct AlignmentMember {
 /** `truth_T_estimate` of each robot. */
 std::vector<Pose3> align(Alignment alignment, const std::vector<AlignmentMember>& robots);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

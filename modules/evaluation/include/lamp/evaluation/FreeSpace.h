@@ -7,7 +7,7 @@
 
 #include "lamp/evaluation/TrueSurface.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** Calls `take` with the centre of each truly free voxel: one that is joined with a robot's true
  * position through voxels without surface samples (over faces), and has no surface sample in its 26
@@ -17,4 +17,4 @@ namespace lamp {
 void forEachFreeVoxel(const SurfaceSamples& surface, const std::vector<Eigen::Vector3f>& positions,
                       double voxel_m, const std::function<void(const Eigen::Vector3d&)>& take);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** Points of the keyed scans of one robot in the base frame, metres, by stamp. */
 struct KeyedScans {
@@ -20,4 +20,4 @@ struct KeyedScans {
  * \throws std::runtime_error if the file cannot be opened. */
 KeyedScans readKeyedScans(const std::string& path);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -9,7 +9,7 @@
 #include "lamp/core/Geometry.h"
 #include "lamp/core/RunFolder.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** A key node as the files of a run name it. */
 struct LedgerNode {
@@ -35,4 +35,4 @@ struct LedgerLoop {
  * \throws std::runtime_error with the file if one is missing or malformed. */
 std::vector<LedgerLoop> readLedger(const RunFolder& run);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -7,7 +7,7 @@
 #include "lamp/evaluation/RunFiles.h"
 #include "lamp/evaluation/Truth.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 struct LoopEvaluation {
   std::vector<JudgedLoop> loops;  ///< one a pair of key nodes
@@ -19,4 +19,4 @@ struct LoopEvaluation {
  * the run is aligned. \throws std::runtime_error if a file is missing or malformed. */
 LoopEvaluation evaluateLoops(const RunFiles& run, const TruthFolder& truth);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -6,7 +6,7 @@
 #include "lamp/evaluation/LedgerLoops.h"
 #include "lamp/evaluation/Statistics.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** Whether two key nodes see the same place, by the overlap of their scans at the true poses. */
 enum class PairKind {
@@ -59,4 +59,4 @@ struct LoopScore {
 
 LoopScore scoreLoops(const std::vector<const JudgedLoop*>& loops);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

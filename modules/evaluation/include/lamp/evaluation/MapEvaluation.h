@@ -7,7 +7,7 @@
 #include "lamp/evaluation/Statistics.h"
 #include "lamp/evaluation/TrueSurface.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** A point cloud against the true surface. */
 struct MapEvaluation {
@@ -30,4 +30,4 @@ void writeErrorPly(const std::string& path, const MapEvaluation& map, double ful
  * 95 % of the errors, 0.1 m at least. */
 double errorScale(const MapEvaluation& map);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

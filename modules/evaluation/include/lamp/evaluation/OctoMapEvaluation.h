@@ -7,7 +7,7 @@
 #include "lamp/core/Geometry.h"
 #include "lamp/evaluation/TrueSurface.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** How many of a set of places an octree calls occupied, free and unknown. */
 struct OctoMapCounts {
@@ -33,4 +33,4 @@ OctoMapEvaluation evaluateOctoMap(const std::string& tree, const Pose3& truth_T_
                                   const SurfaceSamples& surface,
                                   const std::vector<Eigen::Vector3f>& positions);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -6,7 +6,7 @@
 #include "lamp/core/Trajectory.h"
 #include "lamp/evaluation/Statistics.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** A true motion between two scans, by stamp (Kümmerle et al., "On measuring the accuracy of SLAM
  * algorithms", Autonomous Robots 2009). */
@@ -40,4 +40,4 @@ struct RelationErrors {
 RelationErrors relationErrors(const std::vector<StampedPose>& trajectory,
                               const std::vector<Relation>& relations);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

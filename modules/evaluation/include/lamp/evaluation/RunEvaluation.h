@@ -12,7 +12,7 @@
 #include "lamp/evaluation/Relations.h"
 #include "lamp/evaluation/TrajectoryEvaluation.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** The true surface, and where the robots truly were. */
 struct TrueWorld {
@@ -53,4 +53,4 @@ struct RunEvaluation {
 RunEvaluation evaluateRun(const std::string& root, const EvaluationInput& input,
                           const std::function<void(double, const std::string&)>& progress);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

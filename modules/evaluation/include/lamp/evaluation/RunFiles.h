@@ -5,7 +5,7 @@
 
 #include "lamp/core/RunFolder.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** What the evaluation needs to know from a run's summary.json. */
 struct RunFiles {
@@ -30,4 +30,4 @@ struct RunFiles {
   static RunFiles open(const std::string& root);
 };
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** Of a set of errors; all zero if it is empty. */
 struct Statistics {
@@ -17,4 +17,4 @@ struct Statistics {
  * \param sorted ascending, not empty. */
 double quantile(const std::vector<double>& sorted, double share);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -5,7 +5,7 @@
 
 #include "lamp/evaluation/Truth.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** An estimated pose and the true one at its stamp. */
 struct JoinedPose {
@@ -28,4 +28,4 @@ struct JoinedTrajectory {
 JoinedTrajectory joinInTime(const std::vector<StampedPose>& estimate, const TrueTrajectory& truth,
                             const std::string& robot);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -6,7 +6,7 @@
 #include "lamp/evaluation/Statistics.h"
 #include "lamp/evaluation/TimeJoin.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** The error of each joined pose, in time order. */
 struct TrajectoryError {
@@ -35,4 +35,4 @@ struct Drift {
  * alignment. */
 Drift drift(const std::vector<JoinedPose>& poses, double segment_m);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -7,7 +7,7 @@
 #include "lamp/evaluation/RunFiles.h"
 #include "lamp/evaluation/TrajectoryError.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** One trajectory against the truth, or several together. */
 struct TrajectoryScore {
@@ -44,4 +44,4 @@ struct TrajectoryEvaluation {
 TrajectoryEvaluation evaluateTrajectories(const RunFiles& run, const TruthFolder& truth,
                                           Alignment alignment);
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

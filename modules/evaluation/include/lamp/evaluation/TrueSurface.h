@@ -7,7 +7,7 @@
 
 #include "lamp/core/KdTree.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** Samples of the true surface, about 0.1 m apart, world frame. */
 struct SurfaceSamples {
@@ -40,4 +40,4 @@ class TrueSurface {
   const KdTree tree_;
 };
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

@@ -6,7 +6,7 @@
 
 #include "lamp/core/Trajectory.h"
 
-namespace lamp {
+namespace lamp::evaluation {
 
 /** The folder with the true trajectories and surface: `<robot>.tum`, `map.ply`. */
 class TruthFolder {
@@ -49,4 +49,4 @@ class TrueTrajectory {
   TrajectoryInterpolator interpolator_;
 };
 
-}  // namespace lamp
+}  // namespace lamp::evaluation

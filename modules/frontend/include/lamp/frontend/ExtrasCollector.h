@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/frontend/GravityDetector.h"
 #include "lamp/frontend/OdometrySource.h"
 
@@ -22,7 +22,7 @@ class ExtrasCollector {
    * is dropped. */
   void advanceTo(double stamp, OdometrySource& odometry);
   /** What is there, in the frame of a key node; it is forgotten then. */
-  KeyframeExtras take(const Pose3& odom_T_base);
+  KeyNodeExtras take(const Pose3& odom_T_base);
 
  private:
   using Reading = std::variant<LandmarkSighting, RangeReading, GravityReading>;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/frontend/ExtrasCollector.h"
 #include "lamp/frontend/MotionModel.h"
 #include "lamp/frontend/OdometrySource.h"
@@ -40,12 +40,12 @@ class FrontEnd {
            std::optional<StartPrior> prior);
 
   /** \return the key nodes that the observation completes, in time order. */
-  std::vector<KeyframePacket> observe(const InputObservation& observation);
+  std::vector<KeyNodePacket> observe(const InputObservation& observation);
   /** Nothing of the robot before `stamp` (seconds, UTC) will come.
    *  \return the key nodes that are complete by this. */
-  std::vector<KeyframePacket> advanceTo(double stamp);
+  std::vector<KeyNodePacket> advanceTo(double stamp);
   /** Handles what still waits for odometry, and closes the stream. */
-  std::vector<KeyframePacket> finish();
+  std::vector<KeyNodePacket> finish();
   /** What came after the last key node; to be called after finish(). */
   RobotEnd end();
 
@@ -61,12 +61,12 @@ class FrontEnd {
 
  private:
   void enqueue(ScanParts scan);
-  std::vector<KeyframePacket> processCoveredScans();
-  std::optional<KeyframePacket> processScan(const ScanParts& parts);
+  std::vector<KeyNodePacket> processCoveredScans();
+  std::optional<KeyNodePacket> processScan(const ScanParts& parts);
   bool isKeyNode(const Pose3& odom_T_base) const;
   Scan keyedScan(const ScanParts& parts, const Pose3& odom_T_base);
   void appendScan(const InputObservation& observation, const Pose3& base_T_scan, Scan& merged);
-  KeyframePacket makePacket(double stamp, const Pose3& odom_T_base, Scan scan);
+  KeyNodePacket makePacket(double stamp, const Pose3& odom_T_base, Scan scan);
   Matrix6d motionCovariance(double stamp);
 
   const RobotId robot_;

@@ -3,7 +3,7 @@
 #include <deque>
 #include <optional>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/core/Options.h"
 #include "lamp/input/ExtrasFromObservation.h"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/input/RobotOptions.h"
 
 namespace lamp {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/input/ObservationSource.h"
 
 namespace lamp {

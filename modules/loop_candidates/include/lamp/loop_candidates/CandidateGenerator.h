@@ -16,7 +16,7 @@ class CandidateGenerator : public Stage {
   /** Candidates between `current` and the other key nodes, of its own robot and of others, by the
    * graph's current estimate; nearest first within each robot. */
   virtual std::vector<LoopClosureCandidate> propose(const PoseGraph& graph,
-                                                    KeyframeId current) const = 0;
+                                                    KeyNodeId current) const = 0;
 };
 
 /** Registers the generators of this module. */

@@ -20,7 +20,7 @@ class GlobalSearch : public CandidateGenerator {
   GlobalSearchOptions options;
   void visit(OptionVisitor& v) override { options.visit(v); }
   std::vector<LoopClosureCandidate> propose(const PoseGraph& graph,
-                                            KeyframeId current) const override;
+                                            KeyNodeId current) const override;
 };
 
 }  // namespace lamp

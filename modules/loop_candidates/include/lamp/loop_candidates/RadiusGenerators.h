@@ -12,7 +12,7 @@ class RadiusGenerator : public CandidateGenerator {
 
  public:
   std::vector<LoopClosureCandidate> propose(const PoseGraph& graph,
-                                            KeyframeId current) const override;
+                                            KeyNodeId current) const override;
 
  protected:
   struct Limits {

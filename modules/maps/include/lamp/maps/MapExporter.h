@@ -5,16 +5,16 @@
 
 #include "lamp/core/Geometry.h"
 #include "lamp/core/Ids.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/core/KeyedScan.h"
-#include "lamp/core/KeyframePacket.h"
 #include "lamp/core/PoseGraph.h"
 #include "lamp/core/Stage.h"
 
 namespace lamp {
 
 /** A key node with its keyed scan at its optimised pose. */
-struct MapKeyframe {
-  KeyframeId id;
+struct MapKeyNode {
+  KeyNodeId id;
   double stamp = 0;
   Pose3 world_T_base = Pose3::Identity();
   KeyedScanPtr scan;
@@ -34,8 +34,8 @@ struct MapLoop {
 
 /** Everything that a map of one component is made of. */
 struct ComponentMap {
-  std::vector<MapKeyframe> keyframes;  ///< in KeyframeId order
-  std::vector<MapTrack> tracks;        ///< in RobotId order
+  std::vector<MapKeyNode> key_nodes;  ///< in KeyNodeId order
+  std::vector<MapTrack> tracks;       ///< in RobotId order
   std::vector<MapLoop> loops;
   const RobotTable* robots = nullptr;
 };

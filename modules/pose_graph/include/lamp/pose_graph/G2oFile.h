@@ -17,7 +17,7 @@ struct G2oGraph {
   std::map<std::string, size_t> skipped;  ///< lines with a tag that we do not know, by tag
 
   /** How the file names a node: its id, or letter and index of a symbol. */
-  std::string name(KeyframeId id) const;
+  std::string name(KeyNodeId id) const;
 };
 
 /** Reads EDGE_SE2, EDGE_SE3:QUAT, VERTEX_SE2 and VERTEX_SE3:QUAT; landmarks, which are named by

@@ -21,7 +21,7 @@ struct GncOptions {
 
 /** The last solution of a Gnc. */
 struct GncMemory {
-  std::vector<KeyframeId> nodes;
+  std::vector<KeyNodeId> nodes;
   std::vector<Edge> edges;
   std::vector<bool> inlier;   ///< of each edge
   std::vector<Pose3> poses;   ///< of each node

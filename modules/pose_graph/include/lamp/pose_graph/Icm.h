@@ -15,7 +15,7 @@ struct IcmOptions {
   double inlier_probability = 0.9999;
   double max_translation_per_node_m = 0.05;
   double max_rotation_per_node_rad = 0.005;
-  int most_search_steps = 10000;
+  int max_search_steps = 10000;
 
   void visit(OptionVisitor& v);
 };

@@ -27,11 +27,11 @@ class MarginalCovariances : public UncertaintyQuery {
 
   /** Zero from a node to itself. \throws std::out_of_range if an id is not in the graph. */
   std::vector<std::optional<Matrix6d>> relativeCovariances(
-      KeyframeId from, const std::vector<KeyframeId>& to) const override;
+      KeyNodeId from, const std::vector<KeyNodeId>& to) const override;
 
   /** Covariance of `world_T_base` in its tangent space; of a component that no prior reaches,
    * relative to its first key node. \throws std::out_of_range. */
-  Matrix6d covariance(KeyframeId id) const;
+  Matrix6d covariance(KeyNodeId id) const;
 
   /** Covariance of `world_p`, relative to the same; zero if nothing moves the landmark.
    * \throws std::out_of_range. */

@@ -34,34 +34,4 @@ class InitialAligner : public Stage {
                                 const Guess& guess) const = 0;
 };
 
-/** Starts with both key nodes at the same place, looking the same way. */
-class Identity : public InitialAligner {
-  DEFINE_MRPT_OBJECT(Identity, lamp)
-
- public:
-  void visit(OptionVisitor&) override {}
-  AlignmentResult align(const PreparedScan& source, const PreparedScan& target,
-                        const Guess& guess) const override;
-};
-
-/** Starts from the graph's current estimate of the relative pose. */
-class Odometry : public InitialAligner {
-  DEFINE_MRPT_OBJECT(Odometry, lamp)
-
- public:
-  void visit(OptionVisitor&) override {}
-  AlignmentResult align(const PreparedScan& source, const PreparedScan& target,
-                        const Guess& guess) const override;
-};
-
-/** Starts at the same place, with the graph's current estimate of the rotation (LAMP 1.0). */
-class OdometryRotation : public InitialAligner {
-  DEFINE_MRPT_OBJECT(OdometryRotation, lamp)
-
- public:
-  void visit(OptionVisitor&) override {}
-  AlignmentResult align(const PreparedScan& source, const PreparedScan& target,
-                        const Guess& guess) const override;
-};
-
 }  // namespace lamp

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/core/LoopClosure.h"
 #include "lamp/core/Options.h"
 #include "lamp/scans/PreparedScan.h"
@@ -39,7 +39,7 @@ class PreparedScanStore {
  public:
   /** A key node's scan with up to so many neighbours on each side. */
   struct Key {
-    KeyframeId id;
+    KeyNodeId id;
     uint32_t before = 0, after = 0;
 
     friend bool operator<(const Key& a, const Key& b) {
@@ -58,7 +58,7 @@ class PreparedScanStore {
   Key target(const LoopClosureCandidate& candidate) const { return key(candidate.from, candidate); }
 
   /** Not while other threads get(). */
-  void add(const KeyframePacket& packet);
+  void add(const KeyNodePacket& packet);
   /** The prepared scan, as of the key nodes added so far. Safe from many threads.
    *  \throws std::out_of_range if the key node was not added. */
   PreparedScanPtr get(const Key& key);
@@ -66,7 +66,7 @@ class PreparedScanStore {
   PreparationReport report() const;
 
  private:
-  struct Keyframe {
+  struct KeyNode {
     Pose3 odom_T_base = Pose3::Identity();
     KeyedScanPtr scan;
     bool planar = false;
@@ -81,16 +81,16 @@ class PreparedScanStore {
   };
   using EntryPtr = std::shared_ptr<Entry>;
 
-  Key key(KeyframeId id, const LoopClosureCandidate& candidate) const;
+  Key key(KeyNodeId id, const LoopClosureCandidate& candidate) const;
   /** The key nodes whose scans make up the prepared one. */
-  std::vector<KeyframeId> members(const Key& key) const;
+  std::vector<KeyNodeId> members(const Key& key) const;
   PreparedScanPtr prepare(const Key& key) const;
   EntryPtr find(const Key& key);
   void account(const Key& key, const EntryPtr& entry);
   void forget(std::map<Key, EntryPtr>::iterator entry);
 
   const PreparationOptions options_;
-  std::unordered_map<KeyframeId, Keyframe> keyframes_;
+  std::unordered_map<KeyNodeId, KeyNode> key_nodes_;
 
   mutable std::mutex mutex_;  ///< of all that follows
   std::map<Key, EntryPtr> entries_;

@@ -7,7 +7,7 @@
 #include "lamp/core/Trajectory.h"
 #include "lamp/simulation/RayCaster.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Something to be found: backpack, survivor, phone, drill, extinguisher, ... */
 struct Artifact {
@@ -43,4 +43,4 @@ std::vector<Sighting> seeArtifacts(const std::vector<Artifact>& artifacts,
                                    const TrajectoryInterpolator& truth, const RayCaster& caster,
                                    const ArtifactOptions& options, uint64_t seed);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

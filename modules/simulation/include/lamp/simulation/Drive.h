@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 #include "lamp/core/Options.h"
 #include "lamp/simulation/RayCaster.h"
 #include "lamp/simulation/Route.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 struct DriveOptions {
   double speed_mps = 1.2;
@@ -28,4 +28,4 @@ struct DriveOptions {
 std::vector<StampedPose> drive(const std::vector<Leg>& route, const RayCaster& world,
                                const DriveOptions& options, double start_stamp, uint64_t seed);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** When and where the 16 lasers of a spinning lidar fire: the pattern of a VLP-16, as MRPT's
  * decoder of its packets sees it.
@@ -39,4 +39,4 @@ class FiringPattern {
   double laser_s_;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

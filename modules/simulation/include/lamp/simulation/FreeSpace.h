@@ -6,7 +6,7 @@
 #include "lamp/simulation/Mesh.h"
 #include "lamp/simulation/Noise.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** How the walls around a hollow look. */
 struct WallStyle {
@@ -88,4 +88,4 @@ class FreeSpace {
   double roughness_m_ = 0;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

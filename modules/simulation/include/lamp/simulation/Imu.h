@@ -5,7 +5,7 @@
 #include "lamp/core/Options.h"
 #include "lamp/core/Trajectory.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 struct ImuOptions {
   double rate_hz = 100;
@@ -35,4 +35,4 @@ struct ImuReading {
 std::vector<ImuReading> simulateImu(const TrajectoryInterpolator& truth, const ImuOptions& options,
                                     uint64_t seed);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

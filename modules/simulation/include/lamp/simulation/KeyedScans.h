@@ -6,7 +6,7 @@
 #include "lamp/core/KeyedScan.h"
 #include "lamp/simulation/Mission.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Which triangles of a mesh any scan has hit. */
 using SeenTriangles = std::vector<std::atomic<bool>>;
@@ -27,4 +27,4 @@ void markSeen(const LidarSweep& sweep, SeenTriangles& seen);
 /** Seed of a lidar of a robot. */
 uint64_t lidarSeed(const MissionRobot& robot, size_t lidar);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** A way between two places that a robot can drive. */
 struct Passage {
@@ -28,4 +28,4 @@ struct Layout {
   double distanceToPassages(const Eigen::Vector3d& p) const;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -11,7 +11,7 @@
 #include "lamp/simulation/Random.h"
 #include "lamp/simulation/RayCaster.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 struct LidarOptions {
   std::string model = "spinning";
@@ -93,4 +93,4 @@ class Lidar {
 std::vector<Eigen::Vector3f> deskew(const LidarSweep& sweep, const Lidar& lidar,
                                     const TrajectoryInterpolator& trajectory, double stamp);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -4,7 +4,7 @@
 
 #include "lamp/simulation/Radio.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 struct LinkOptions {
   double range_m = 60;
@@ -50,4 +50,4 @@ class Link {
   std::vector<Relay> relays_;  ///< the base, then the beacons that ever join it
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -6,11 +6,11 @@
 #include "lamp/core/KeyedScan.h"
 #include "lamp/simulation/Mission.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Two key nodes of a team and what is true of them. */
 struct LoopPair {
-  KeyframeId from, to;
+  KeyNodeId from, to;
   double from_stamp, to_stamp;
   Pose3 from_T_to;
   double overlap;
@@ -27,4 +27,4 @@ std::vector<LoopPair> findLoopPairs(const Mission& mission, const Layout& layout
                                     const std::vector<std::vector<KeyedScanPtr>>& scans,
                                     size_t pairs, uint64_t seed);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

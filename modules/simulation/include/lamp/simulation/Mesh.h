@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** What a surface is made of: how it reflects a lidar's light. */
 enum class Material : uint8_t { kRock, kConcrete, kMetal, kReflector };
@@ -21,4 +21,4 @@ struct Mesh {
   Eigen::Vector3f normal(size_t triangle) const;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -5,7 +5,7 @@
 
 #include "lamp/simulation/SimConfig.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** One robot's part in a mission: where it truly was, and what it knew, but for its lidars. */
 struct MissionRobot {
@@ -43,4 +43,4 @@ Mission makeMission(const SimConfig& config, const World& world, const RayCaster
 std::vector<size_t> selectKeyNodes(const std::vector<StampedPose>& odom_T_base,
                                    const KeyedOptions& options);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

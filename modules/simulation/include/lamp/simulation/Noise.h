@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Smooth random field in space: gradient noise (Perlin, "Improving Noise", SIGGRAPH 2002), about
  * -0.7 to 0.7, zero at lattice points, features about `wavelength_m` apart. The same for the same
@@ -21,4 +21,4 @@ class Noise {
   uint64_t seed_;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

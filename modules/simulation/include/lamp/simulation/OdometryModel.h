@@ -5,7 +5,7 @@
 #include "lamp/core/Options.h"
 #include "lamp/core/Trajectory.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Errors of a lidar/IMU odometry. Densities per square root are random walks. */
 struct OdometryOptions {
@@ -60,4 +60,4 @@ struct SimulatedOdometry {
 SimulatedOdometry simulateOdometry(const TrajectoryInterpolator& truth,
                                    const OdometryOptions& options, uint64_t seed);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

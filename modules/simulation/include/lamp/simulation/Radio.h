@@ -7,7 +7,7 @@
 #include "lamp/core/Trajectory.h"
 #include "lamp/simulation/RayCaster.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 struct RadioOptions {
   double beacon_spacing_m = 50;
@@ -59,4 +59,4 @@ class Radio {
   const RayCaster& caster_;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

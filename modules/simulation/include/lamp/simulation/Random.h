@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <random>
 
-namespace lamp {
+namespace lamp::simulation {
 
 using Random = std::mt19937_64;
 
@@ -26,4 +26,4 @@ inline size_t pick(Random& random, size_t count) {
   return std::uniform_int_distribution<size_t>(0, count - 1)(random);
 }
 
-}  // namespace lamp
+}  // namespace lamp::simulation

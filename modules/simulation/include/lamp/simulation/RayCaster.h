@@ -6,7 +6,7 @@
 
 #include "lamp/simulation/Mesh.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Where a ray meets the world. */
 struct RayHit {
@@ -34,4 +34,4 @@ class RayCaster {
   std::unique_ptr<Scene> scene_;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

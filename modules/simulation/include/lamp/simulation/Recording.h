@@ -7,7 +7,7 @@
 #include "lamp/core/KeyedScan.h"
 #include "lamp/simulation/KeyedScans.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Told the share of the work that is done, 0 to 1. */
 using ShareDone = std::function<void(double)>;
@@ -24,4 +24,4 @@ void writeKeyedRecording(const std::string& path, const MissionRobot& robot,
 void writeRawRecording(const std::string& path, const MissionRobot& robot, const Mission& mission,
                        const SimConfig& config, SeenTriangles& seen, const ShareDone& done);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

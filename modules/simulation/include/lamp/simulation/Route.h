@@ -3,7 +3,7 @@
 #include "lamp/simulation/Layout.h"
 #include "lamp/simulation/Random.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** A stretch that is driven forwards; between two legs the robot turns on the spot. */
 struct Leg {
@@ -21,4 +21,4 @@ struct Leg {
 std::vector<std::vector<Leg>> planRoutes(const Layout& layout, const std::vector<double>& length_m,
                                          uint64_t seed);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -16,7 +16,7 @@ class CObservationRobotPose;
 class CObservationWirelessPower;
 }  // namespace mrpt::obs
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** `robot/odom`: odom_T_base and its accumulated covariance. \param index of the pose. */
 std::shared_ptr<mrpt::obs::CObservationRobotPose> odometryObservation(
@@ -39,4 +39,4 @@ std::vector<std::shared_ptr<mrpt::obs::CObservationBearingRange>> artifactObserv
     const std::vector<Sighting>& sightings, const ArtifactOptions& options,
     const std::string& robot);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

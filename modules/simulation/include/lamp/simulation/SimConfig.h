@@ -14,7 +14,7 @@
 #include "lamp/simulation/Radio.h"
 #include "lamp/simulation/World.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 struct WorldOptions {
   int robots = 0;
@@ -72,4 +72,4 @@ struct SimConfig {
   double truthSpacingM() const;
 };
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -4,7 +4,7 @@
 
 #include "lamp/simulation/SimConfig.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** What `lamp-sim` does once it knows its arguments. */
 struct SimJob {
@@ -18,4 +18,4 @@ struct SimJob {
  * \return what was made, for the user. \throws std::runtime_error if a file cannot be written. */
 std::string simulate(const SimConfig& config, const SimJob& job);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

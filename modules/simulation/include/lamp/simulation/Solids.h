@@ -5,7 +5,7 @@
 #include "lamp/simulation/Mesh.h"
 #include "lamp/simulation/Random.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** Meshes of things that stand in a world, closed, seen from outside. World frame, metres. Faces
  * are divided into triangles no wider than 0.3 m, so that what a scan saw of them can be marked. */
@@ -23,4 +23,4 @@ Mesh boulder(const Eigen::Vector3d& foot, double radius_m, Random& random);
 /** A rectangle of `size` (across, up) around the middle of `world_T_plate`, facing its x axis. */
 Mesh plate(const Eigen::Isometry3d& world_T_plate, const Eigen::Vector2d& size, Material material);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

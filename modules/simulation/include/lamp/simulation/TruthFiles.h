@@ -6,7 +6,7 @@
 #include "lamp/simulation/KeyedScans.h"
 #include "lamp/simulation/LoopPairs.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** `map.ply`: samples of all surfaces about `spacing_m` apart, with the normal towards free space
  * and whether any scan hit their triangle. Binary. \return the number of samples. */
@@ -29,4 +29,4 @@ std::string arrivalsCsv(const MissionRobot& robot);
 /** The experiment file for `lamp-slam`, with paths relative to it. */
 std::string slamIni(const Mission& mission, bool keyed);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -10,7 +10,7 @@ namespace mrpt::obs {
 class CObservationVelodyneScan;
 }
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** A sweep as packets of a VLP-16: one observation, or for a rotating mount several short ones,
  * each with the sensor's pose at the middle of its time.
@@ -24,4 +24,4 @@ namespace lamp {
 std::vector<std::shared_ptr<mrpt::obs::CObservationVelodyneScan>> velodyneObservations(
     const LidarSweep& sweep, const Lidar& lidar, const std::string& label);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

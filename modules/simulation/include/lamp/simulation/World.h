@@ -9,7 +9,7 @@
 #include "lamp/simulation/Layout.h"
 #include "lamp/simulation/Mesh.h"
 
-namespace lamp {
+namespace lamp::simulation {
 
 /** A synthetic place with known truth. World frame, metres; z up. */
 struct World {
@@ -42,4 +42,4 @@ const std::vector<WorldKind>& worldKinds();
 /** \throws std::runtime_error listing the known ones. */
 const WorldKind& worldKind(const std::string& name);
 
-}  // namespace lamp
+}  // namespace lamp::simulation

@@ -3,12 +3,12 @@
 #include <optional>
 #include <variant>
 
-#include "lamp/core/KeyframePacket.h"
+#include "lamp/core/KeyNodePacket.h"
 
 namespace lamp {
 
 /** What travels from the robots to the base station. */
-using Message = std::variant<KeyframePacket, RobotEnd>;
+using Message = std::variant<KeyNodePacket, RobotEnd>;
 
 /** The robots' end of the link. */
 class MessageSender {

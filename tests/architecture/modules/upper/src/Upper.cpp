@@ -1,2 +1,2 @@
-#include "lamp/lower/Lower.h"
 #include "lamp/upper/Upper.h"
+#include "lamp/lower/Lower.h"

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "lamp/base_station/BaseStation.h"
+
+namespace lamp {
+
+/** How many loop closures came how far. */
+struct LoopCounts {
+  size_t candidates = 0;  ///< proposed by the generators, with proposals made again
+  size_t attempts = 0;    ///< computed
+  size_t verified = 0;    ///< accepted by all verifiers
+  size_t inliers = 0;     ///< kept by the back end
+};
+
+/** Inlier loop closures of one component. */
+struct ComponentLoops {
+  size_t within_robots = 0;
+  size_t between_robots = 0;
+};
+
+LoopCounts countLoops(const BaseStation& base_station);
+
+/** Edges beside odometry, priors and loop closures. */
+struct MeasurementCounts {
+  size_t edges = 0, inliers = 0;
+};
+MeasurementCounts countMeasurements(const PoseGraph& graph);
+
+ComponentLoops countLoops(const PoseGraph& graph, const Component& component);
+
+}  // namespace lamp

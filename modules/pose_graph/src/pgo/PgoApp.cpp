@@ -1,0 +1,110 @@
+#include "lamp/pose_graph/PgoApp.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <limits>
+
+#include "lamp/core/Files.h"
+#include "lamp/core/GraphFiles.h"
+#include "lamp/core/Program.h"
+#include "lamp/core/Version.h"
+#include "lamp/pose_graph/BackEnd.h"
+#include "lamp/pose_graph/FalseLoops.h"
+#include "pgo/PgoReport.h"
+
+namespace lamp {
+
+namespace {
+
+struct Arguments {
+  std::string graph, config, out, json, covariances;
+  double add_outliers = 0;
+  int seed = 1;
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.description(
+      "Robust optimisation of a pose graph in g2o's format.\n"
+      "Example: lamp-pgo graph.g2o --out optimised.g2o --json report.json");
+  app.set_version_flag("--version", std::string("lamp-pgo ") + kVersion);
+  app.add_option("graph", arguments.graph, "SE2 or SE3")->type_name("GRAPH.g2o")->required();
+  app.add_option("--config", arguments.config,
+                 "Experiment file of lamp-slam: its outlier_rejection and optimizer take part")
+      ->type_name("CONFIG.ini");
+  app.add_option("--out", arguments.out, "The optimised graph, without the loops rejected")
+      ->type_name("OUT.g2o")
+      ->required();
+  app.add_option("--add-outliers", arguments.add_outliers,
+                 "Adds false loops until they are this share of all, and counts how many are found")
+      ->type_name("SHARE")
+      ->check(CLI::Range(0.0, 0.99));
+  app.add_option("--seed", arguments.seed, "Of the false loops")
+      ->capture_default_str()
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+  app.add_option("--json", arguments.json,
+                 "Writes figures, and weight, verdict and chi2 of each edge; - for stdout")
+      ->type_name("FILE");
+  app.add_option("--covariances", arguments.covariances,
+                 "Writes the covariance of each node's pose at the solution")
+      ->type_name("FILE.csv");
+}
+
+/** The back end's part of `[pipeline]`; the other keys are lamp-slam's. */
+struct PipelineOptions {
+  std::vector<std::string> outlier_rejection = {"OdometryGate", "ChanceAgreement", "RobotFrames"};
+  std::string optimizer = "Gnc";
+
+  void visit(OptionVisitor& v) {
+    v("outlier_rejection", outlier_rejection, "");
+    v("optimizer", optimizer, "");
+  }
+};
+
+BackEnd makeBackEnd(const std::string& config) {
+  Faults faults;
+  const Ini ini = config.empty() ? Ini() : Ini::fromFile(config, faults);
+  PipelineOptions pipeline;
+  IniOptionReader reader(ini.find("pipeline"), faults);
+  pipeline.visit(reader);
+  const std::string where = config + ": [pipeline] ";
+  BackEnd back_end;
+  for (const std::string& name : pipeline.outlier_rejection)
+    back_end.rejections.push_back(makeStage<OutlierRejection>(
+        StageName::parse(name), "outlier rejection", where + "outlier_rejection", ini, faults));
+  back_end.optimizer = makeStage<Optimizer>(StageName::parse(pipeline.optimizer), "optimizer",
+                                            where + "optimizer", ini, faults);
+  faults.throwIfAny();
+  return back_end;
+}
+
+void run(const Arguments& arguments) {
+  registerAllClasses_lamp_core();
+  registerAllClasses_lamp_pose_graph();
+  const BackEnd back_end = makeBackEnd(arguments.config);
+  G2oGraph g2o = readG2oFile(arguments.graph);
+  const size_t true_edges = g2o.graph.edges().size();
+  addFalseLoops(g2o.graph, arguments.add_outliers, static_cast<unsigned>(arguments.seed));
+
+  const OptimizationResult result = back_end.optimize(g2o.graph);
+  const auto report = pgoReport(g2o, result, true_edges);
+  if (!arguments.json.empty() && arguments.json != "-")
+    writeTextFile(arguments.json, report.dump(1) + "\n");
+  if (!result.report.usable)
+    throw std::runtime_error("the optimisation failed: " + result.report.termination);
+  applyResult(result, g2o.graph);
+  writeTextFile(arguments.out, toG2o(g2o));
+  if (!arguments.covariances.empty())
+    writeTextFile(arguments.covariances, covarianceTable(g2o).text());
+  std::cout << (arguments.json == "-" ? report.dump(1) + "\n" : pgoSummary(report));
+}
+
+}  // namespace
+
+int pgoApp(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("", "lamp-pgo");
+  describe(app, arguments);
+  return runProgram(app, argc, argv, [&] { run(arguments); });
+}
+
+}  // namespace lamp

@@ -1,0 +1,131 @@
+#include "lamp/pose_graph/OdometryGate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lamp/core/ChiSquare.h"
+#include "rejection/OdometryChains.h"
+#include "rejection/PoseVolume.h"
+#include "solver/Information.h"
+
+IMPLEMENTS_MRPT_OBJECT(OdometryGate, OutlierRejection, lamp)
+
+namespace lamp {
+
+namespace {
+
+constexpr double kNearly = 0.97;
+constexpr size_t kSampled = 400;
+/** Smaller scales may be chance, and not to know of them does no harm. */
+constexpr double kLeastMistake = 16.0;
+/** A few false loops that agree must not loosen odometry: of all loops, so many have to ask for it.
+ */
+constexpr double kFewestWitnesses = 10, kLeastWitnesses = 0.1;
+
+/** A loop closure beside what odometry says. */
+struct GatedLoop {
+  EdgeIndex edge;
+  Vector6d error;
+  Matrix6d odometry_covariance, loop_covariance;  ///< both in the tangent space of the error
+  int rank;
+
+  double distance2(double scale) const {
+    return mahalanobis2(error, scale * odometry_covariance + loop_covariance);
+  }
+};
+
+std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const OdometryChains& chains,
+                                  const std::vector<bool>& admitted) {
+  const bool planar = graph.planar();
+  std::vector<GatedLoop> loops;
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
+    const Edge& edge = graph.edges()[e];
+    if (!edge.isLoopClosure() || edge.pinned || !admitted[e]) continue;
+    const auto odometry = chains.between(edge.from, edge.to);
+    if (!odometry) continue;
+    const Vector6d error = logSE3(edge.from_T_to.inverse() * odometry->a_T_b);
+    const Matrix6d J = rightJacobianInverse(error);
+    loops.push_back({e, error, J * odometry->covariance * J.transpose(),
+                     boundedCovariance(edge.information, planar),
+                     std::max(1, informationRank(edge.information, planar))});
+  }
+  return loops;
+}
+
+/** Loops at even steps: as many as tell the scale. */
+std::vector<GatedLoop> sample(const std::vector<GatedLoop>& loops) {
+  const size_t step = loops.size() / kSampled + 1;
+  std::vector<GatedLoop> sampled;
+  for (size_t i = 0; i < loops.size(); i += step) sampled.push_back(loops[i]);
+  return sampled;
+}
+
+/** How many loops lie as near to odometry as true ones should, and how many false ones would. */
+struct Near {
+  double loops = 0, by_chance = 0;
+  /** So many are true, at least. */
+  double surplus() const { return loops - by_chance - 3.0 * std::sqrt(by_chance); }
+};
+
+Near countNear(const std::vector<GatedLoop>& loops, double scale, double inlier_probability,
+               const PoseVolume& volume) {
+  Near near;
+  for (const GatedLoop& loop : loops) {
+    const double threshold = chiSquareQuantile(inlier_probability, loop.rank);
+    near.loops += loop.distance2(scale) <= threshold;
+    near.by_chance +=
+        volume.chance(scale * loop.odometry_covariance + loop.loop_covariance, threshold);
+  }
+  return near;
+}
+
+/** A factor of odometry's covariances, and how many true loops more than with 1 lie near then. */
+struct Scale {
+  double value = 1.0, witnesses = 0;
+};
+
+/** The least scale, at least 1, with which nearly as many loops lie near odometry as with any,
+ * false ones not counted. */
+Scale fittingScale(const std::vector<GatedLoop>& loops, const OdometryGateOptions& options,
+                   const PoseVolume& volume) {
+  std::vector<std::pair<double, Near>> tried;
+  for (double scale = 1.0;; scale *= 2.0) {
+    scale = std::min(scale, options.max_scale);
+    tried.emplace_back(scale, countNear(loops, scale, options.inlier_probability, volume));
+    const bool all = tried.back().second.loops == static_cast<double>(loops.size());
+    if (all || scale == options.max_scale) break;
+  }
+  double most = 0;
+  for (const auto& [scale, near] : tried) most = std::max(most, near.surplus());
+  if (!(most > 0)) return {};
+  const auto nearly_most = std::find_if(tried.begin(), tried.end(), [&](const auto& candidate) {
+    return candidate.second.surplus() >= kNearly * most;
+  });
+  const double at_first = std::max(0.0, tried.front().second.surplus());
+  return {nearly_most->first, nearly_most->second.surplus() - at_first};
+}
+
+}  // namespace
+
+void OdometryGateOptions::visit(OptionVisitor& v) {
+  v("inlier_probability", inlier_probability, "", "share of true loop closures that are to pass",
+    {0.0, 1.0 - 1e-12});
+  v("max_scale", max_scale, "",
+    "how many times larger than stated the covariances of odometry may be taken", {1.0});
+}
+
+void OdometryGate::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
+  const OdometryChains chains(graph);
+  const std::vector<GatedLoop> loops = gatedLoops(graph, chains, admitted);
+  const std::vector<GatedLoop> sampled = sample(loops);
+  const Scale scale = fittingScale(sampled, options_, PoseVolume(graph, chains));
+  const bool sure =
+      scale.witnesses >=
+      std::max(kFewestWitnesses, kLeastWitnesses * static_cast<double>(sampled.size()));
+  scale_ = sure && scale.value >= kLeastMistake ? scale.value : 1.0;
+  for (const GatedLoop& loop : loops)
+    if (loop.distance2(scale.value) > chiSquareQuantile(options_.inlier_probability, loop.rank))
+      admitted[loop.edge] = false;
+}
+
+}  // namespace lamp

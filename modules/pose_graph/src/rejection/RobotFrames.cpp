@@ -1,0 +1,48 @@
+#include "lamp/pose_graph/RobotFrames.h"
+
+#include "lamp/core/DisjointSets.h"
+#include "rejection/FrameAverages.h"
+
+IMPLEMENTS_MRPT_OBJECT(RobotFrames, OutlierRejection, lamp)
+
+namespace lamp {
+
+void RobotFramesOptions::visit(OptionVisitor& v) {
+  v("min_agreeing", min_agreeing, "",
+    "robots without start poses are joined when so many loop closures between them agree", {1});
+}
+
+void RobotFrames::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
+  const OdometryChains chains(graph);
+  DisjointSets frames(static_cast<size_t>(chains.size()));
+  int in_world = -1;
+  for (int chain = 0; chain < chains.size(); ++chain) {
+    if (!chains.hasPrior(chain)) continue;
+    if (in_world >= 0) frames.join(in_world, chain);
+    in_world = chain;
+  }
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
+    const Edge& edge = graph.edges()[e];
+    if (edge.pinned && admitted[e]) frames.join(chains.chain(edge.from), chains.chain(edge.to));
+  }
+  agreements_.clear();
+  std::vector<FrameAverage> unknown;
+  for (const FrameAverage& average : frameAverages(graph, chains, admitted))
+    if (!frames.joined(average.a, average.b)) unknown.push_back(average);
+  for (const FrameAverage& average : unknown)
+    if (average.agreeing >= static_cast<size_t>(options_.min_agreeing))
+      frames.join(average.a, average.b);
+  for (const FrameAverage& average : unknown)
+    agreements_.push_back({chains.first(average.a).robot, chains.first(average.b).robot,
+                           average.loops, average.agreeing,
+                           static_cast<size_t>(options_.min_agreeing),
+                           frames.joined(average.a, average.b)});
+  for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
+    const Edge& edge = graph.edges()[e];
+    if (edge.isLoopClosure() && !edge.pinned &&
+        !frames.joined(chains.chain(edge.from), chains.chain(edge.to)))
+      admitted[e] = false;
+  }
+}
+
+}  // namespace lamp

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "rejection/LoopCycles.h"
+
+namespace lamp {
+
+/** Loop closures of the same two chains, by where their ends are. */
+class LoopNeighbourhoods {
+ public:
+  /** \param nodes key nodes of odometry within which both ends of neighbours lie.
+   * \param chains which must outlive it. */
+  LoopNeighbourhoods(const OdometryChains& chains, int nodes)
+      : chains_(chains), nodes_(static_cast<uint32_t>(nodes)) {}
+
+  void add(const DirectedLoop& loop) { cells_[cell(loop)].push_back(loop); }
+
+  /** The `most` nearest neighbours, the nearest first. */
+  std::vector<DirectedLoop> nearest(const DirectedLoop& loop, size_t most) const;
+
+ private:
+  /** Two chains, and steps of `nodes` along each. */
+  using Cell = std::tuple<int, int, int64_t, int64_t>;
+
+  Cell cell(const DirectedLoop& loop) const {
+    return {chains_.chain(loop.from), chains_.chain(loop.to), loop.from.index / nodes_,
+            loop.to.index / nodes_};
+  }
+
+  const OdometryChains& chains_;
+  const uint32_t nodes_;
+  std::map<Cell, std::vector<DirectedLoop>> cells_;
+};
+
+}  // namespace lamp

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "solver/BlockCholesky.h"
+#include "solver/Minimizers.h"
+#include "solver/NormalEquations.h"
+#include "solver/PoseProblem.h"
+
+namespace lamp {
+
+/** A pose problem for our own sparse block solver. */
+template <class Space>
+class SparseProblem : public PoseProblem, private LeastSquares {
+ public:
+  using Minimizer = SolveSummary (*)(LeastSquares&, const SolverOptions&);
+
+  SparseProblem(const PoseGraph& graph, const std::vector<Pose3>& poses, Minimizer minimizer);
+
+  void setPoses(const std::vector<Pose3>& poses) override;
+  std::vector<Pose3> poses() const override;
+  void setWeight(EdgeIndex edge, double weight) override;
+  double chi2(EdgeIndex edge) const override {
+    return terms_[edge].chi2(poses_[terms_[edge].from], poses_[terms_[edge].to]);
+  }
+  std::vector<double> leaveOneOut2(const std::vector<EdgeIndex>& edges) override;
+  SolveSummary solve(const SolverOptions& options) override;
+
+ private:
+  using Pose = typename Space::Pose;
+
+  /** So small that the damped equations are as good as the others. */
+  static constexpr double kNoDamping = 1e-9;
+
+  void build();
+  bool factorize(double damping);
+  double linearize() override { return equations_->linearize(poses_); }
+  std::optional<double> computeStep(double damping) override;
+  double costAfterStep() override { return equations_->cost(moved_); }
+  void acceptStep() override {
+    poses_ = moved_;
+    factorized_here_ = false;
+  }
+  void move();
+
+  const PoseGraph& graph_;
+  const Minimizer minimize_;
+  std::vector<PoseTerm<Space>> terms_;
+  std::vector<Pose> poses_;
+  std::vector<Pose> moved_;  ///< by the last step
+  std::vector<int> row_;     ///< of each pose in the equations, -1 for held ones
+  std::unique_ptr<NormalEquations<Space>> equations_;  ///< null if the structure has changed
+  std::unique_ptr<BlockCholesky<Space::kDof>> cholesky_;
+  bool factorized_here_ = false;  ///< cholesky_ is that of the undamped equations at poses_
+  Eigen::VectorXd step_;
+};
+
+extern template class SparseProblem<Se2>;
+extern template class SparseProblem<Se3>;
+
+}  // namespace lamp

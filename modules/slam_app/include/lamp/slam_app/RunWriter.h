@@ -1,0 +1,47 @@
+#pragma once
+
+#include <mrpt/system/CTimeLogger.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lamp/base_station/BaseStation.h"
+#include "lamp/core/RunFolder.h"
+#include "lamp/frontend/FrontEnd.h"
+#include "lamp/slam_app/SlamConfig.h"
+
+namespace lamp {
+
+/** What the front end has to say about one robot. */
+struct FrontEndReport {
+  RobotId robot;
+  FrontEnd::Counts counts;
+  std::vector<std::string> warnings;
+};
+
+/** Everything that a run folder is made of. */
+struct RunResult {
+  const SlamConfig& config;
+  const RobotTable& robots;
+  const BaseStation& base_station;
+  std::vector<FrontEndReport> reports;
+  std::vector<std::string> input_warnings;
+  bool interrupted = false;
+};
+
+/** Called before each long step with the share of the writing that is done and what comes. */
+using WriteProgress = std::function<void(double share, const std::string& step)>;
+
+/** Writes all files of docs/run-folder.md but timings.json, which comes last. */
+void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer,
+              const WriteProgress& progress);
+
+/** Seconds per stage, peak memory and threads; the one file that differs from run to run. */
+void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer,
+                  const PreparationReport& preparation, int threads);
+
+/** What a user wants to know at the end of a run, a few lines. */
+std::string describeRun(const RunFolder& folder, const RunResult& result);
+
+}  // namespace lamp

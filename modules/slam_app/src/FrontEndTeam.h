@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lamp/frontend/FrontEnd.h"
+#include "lamp/slam_app/RunWriter.h"
+#include "lamp/slam_app/SlamConfig.h"
+#include "lamp/transport/Transport.h"
+
+namespace lamp {
+
+/** The front ends of all robots, made as the robots appear in the input. */
+class FrontEndTeam {
+ public:
+  FrontEndTeam(const SlamConfig& config, MessageSender& sender);
+
+  /** Takes the team's observations in time order.
+   *  \return false if nobody receives the key nodes any more. */
+  bool observe(const InputObservation& observation);
+  /** Flushes what waits and closes the robots' streams. */
+  void finish();
+  std::vector<FrontEndReport> reports() const;
+
+ private:
+  FrontEnd& of(RobotId robot);
+  bool send(std::vector<KeyNodePacket> packets);
+
+  const SlamConfig& config_;
+  MessageSender& sender_;
+  std::map<RobotId, FrontEnd> front_ends_;
+};
+
+}  // namespace lamp

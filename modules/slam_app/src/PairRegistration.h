@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lamp/core/KeyedScan.h"
+#include "lamp/registration/LoopClosureComputation.h"
+#include "lamp/slam_app/SlamConfig.h"
+
+namespace lamp {
+
+/** A cloud of a file, and what of it is registered. */
+struct RegisteredCloud {
+  std::string path;
+  size_t read = 0;      ///< points in the file
+  size_t left_out = 0;  ///< of these, that are not finite or too far away
+  double leaf_m = 0;    ///< of the voxel filter; 0 if it was not needed
+  KeyedScanPtr scan;    ///< in the frame of the file
+};
+
+/** One registration without a guess. */
+struct PairRegistration {
+  RegisteredCloud source, target;
+  bool planar = false;  ///< both are level: only x, y and yaw are sought
+  LoopClosureAttempt attempt;
+  double prepare_source_s = 0, prepare_target_s = 0;  ///< normals, free space, descriptors
+  double align_refine_verify_s = 0;
+
+  /** Whether any pose came out, accepted or not. */
+  bool hasResult() const;
+  /** `accepted`, or who refused and why. */
+  std::string verdict() const;
+};
+
+/** Registers the clouds of two files with the stages of the configuration, each thinned as the
+ * front end thins scans. Stages that start from a guess get the identity, without a covariance.
+ * \throws std::runtime_error naming the file that cannot be used. */
+PairRegistration registerPair(const std::string& source, const std::string& target,
+                              const SlamConfig& config);
+
+}  // namespace lamp

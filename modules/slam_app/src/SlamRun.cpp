@@ -1,0 +1,180 @@
+#include "lamp/slam_app/SlamRun.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+
+#include "Delivery.h"
+#include "FrontEndTeam.h"
+#include "TeamArrivals.h"
+#include "lamp/base_station/BaseStation.h"
+#include "lamp/core/Progress.h"
+#include "lamp/input/RawlogSource.h"
+#include "lamp/slam_app/RunWriter.h"
+#include "lamp/transport/InProcessQueue.h"
+
+namespace lamp {
+
+namespace {
+
+using mrpt::system::CTimeLogger;
+using mrpt::system::CTimeLoggerEntry;
+
+constexpr size_t kQueuedMessages = 16;
+
+/** Reads the input and runs the front ends on a thread of its own, ahead of the base station. */
+class FrontEndThread {
+ public:
+  FrontEndThread(const SlamConfig& config, RawlogSource& source, FrontEndTeam& team,
+                 InProcessQueue& queue, const std::atomic<bool>& interrupted)
+      : queue_(queue), thread_([this, &config, &source, &team, &interrupted] {
+          try {
+            run(config, source, team, interrupted);
+          } catch (...) {
+            failure_ = std::current_exception();
+          }
+          queue_.closeSender();
+        }) {}
+
+  ~FrontEndThread() {
+    queue_.closeReceiver();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  /** Nothing is read, and so no robot appears, while the lock is held. */
+  std::unique_lock<std::mutex> pause() { return std::unique_lock<std::mutex>(reading_); }
+
+  /** Share of the input read. */
+  double progress() const { return progress_; }
+
+  /** Waits for the end and passes on what went wrong. */
+  void join() {
+    thread_.join();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void run(const SlamConfig& config, RawlogSource& source, FrontEndTeam& team,
+           const std::atomic<bool>& interrupted) {
+    while (!interrupted) {
+      std::optional<InputObservation> observation;
+      {
+        const std::lock_guard<std::mutex> lock(reading_);
+        observation = source.next();
+        requireArrivals(config, source.robots());  // robots appear as they are read
+      }
+      if (!observation || !team.observe(*observation)) break;
+      progress_ = source.progress();
+    }
+    team.finish();
+  }
+
+  InProcessQueue& queue_;
+  std::mutex reading_;
+  std::atomic<double> progress_{0};
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+std::string describeLoops(const BaseStation& base) {
+  size_t verified = 0;
+  for (const LedgerRow& row : base.ledger().rows()) verified += row.outcome.accepted ? 1 : 0;
+  return std::to_string(base.graph().nodes().size()) + " key nodes, " + std::to_string(verified) +
+         " loop closures verified of " + std::to_string(base.ledger().rows().size());
+}
+
+/** Why no key node came out, from what the front ends and the input say. */
+std::string explainEmptyRun(const std::vector<FrontEndReport>& reports, const RobotTable& robots,
+                            const std::vector<std::string>& input_warnings) {
+  std::string text = "there is no key node to map:";
+  for (const FrontEndReport& report : reports)
+    for (const std::string& warning : report.warnings)
+      text += "\n  robot '" + robots.name(report.robot) + "': " + warning;
+  for (const std::string& warning : input_warnings) text += "\n  " + warning;
+  if (reports.empty()) text += "\n  the input holds no observation of any robot";
+  return text;
+}
+
+}  // namespace
+
+SlamRun::SlamRun(SlamConfig config, Job job, const std::atomic<bool>& interrupted)
+    : COutputLogger("lamp-slam"),
+      config_(std::move(config)),
+      job_(std::move(job)),
+      interrupted_(interrupted) {}
+
+void SlamRun::warn(const std::vector<std::string>& warnings, const std::string& prefix) {
+  for (const std::string& warning : warnings) MRPT_LOG_WARN_STREAM(prefix << warning);
+}
+
+bool SlamRun::actionDue(const BaseStation& base) const {
+  return next_action_ < job_.actions.size() &&
+         job_.actions[next_action_].key_nodes <= base.tracks().packets().size();
+}
+
+void SlamRun::act(BaseStation& base, const RobotTable& robots, bool all) {
+  for (; all ? next_action_ < job_.actions.size() : actionDue(base); ++next_action_) {
+    const OperatorAction& action = job_.actions[next_action_];
+    const std::string outcome = base.apply(action, robots);
+    if (outcome != "done") MRPT_LOG_WARN_STREAM(action.where << ": not done: " << outcome);
+  }
+}
+
+std::string SlamRun::run() {
+  RobotTable robots;
+  RawlogSource source(config_.input.rawlogs, config_.robots, robots);
+  requireArrivals(config_, source.robots());
+  InProcessQueue queue(kQueuedMessages);
+  Delivery delivery(config_, queue);
+  const RunFolder folder = RunFolder::create(job_.out);
+  const tbb::global_control thread_limit(tbb::global_control::max_allowed_parallelism,
+                                         static_cast<size_t>(job_.threads));
+  CTimeLogger timer(true, "lamp-slam");
+  timer.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // it would print itself when destroyed
+  BaseStation base_station(config_.makeBaseStationSetup(), timer);
+  base_station.setMinLoggingLevel(getMinLoggingLevel());
+
+  FrontEndTeam team(config_, queue);
+  {
+    Progress progress;
+    const CTimeLoggerEntry timing(timer, "run");
+    FrontEndThread front_end(config_, source, team, queue, interrupted_);
+    tbb::task_arena arena(job_.threads);
+    arena.execute([&] {
+      while (const auto message = interrupted_ ? std::nullopt : delivery.receive()) {
+        std::visit([&](const auto& content) { base_station.receive(content); }, *message);
+        if (actionDue(base_station)) {
+          const auto paused = front_end.pause();
+          act(base_station, robots, false);
+        }
+        progress.show(front_end.progress() * delivery.share(), describeLoops(base_station));
+      }
+      queue.closeReceiver();  // after Ctrl-C the front end may be waiting for room in the queue
+      base_station.finish(interrupted_);
+      if (!interrupted_) act(base_station, robots, true);
+      base_station.finish(interrupted_);
+    });
+    front_end.join();
+  }
+
+  RunResult result{config_, robots, base_station, team.reports(), source.warnings(), interrupted_};
+  if (base_station.graph().nodes().empty())
+    throw std::runtime_error(explainEmptyRun(result.reports, robots, result.input_warnings));
+  warn(result.input_warnings);
+  for (const FrontEndReport& report : result.reports)
+    warn(report.warnings, "robot '" + robots.name(report.robot) + "': ");
+  {
+    Progress progress;
+    writeRun(folder, result, timer,
+             [&](double share, const std::string& step) { progress.show(share, step); });
+  }
+  writeTimings(folder, timer, base_station.preparation(), job_.threads);
+  return describeRun(folder, result);
+}
+
+}  // namespace lamp

@@ -1,0 +1,128 @@
+#include "Summary.h"
+
+#include <mrpt/version.h>
+
+#include <algorithm>
+
+#include "lamp/core/Version.h"
+
+namespace lamp {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double length(const std::vector<StampedPose>& trajectory) {
+  double sum = 0;
+  for (size_t i = 1; i < trajectory.size(); ++i)
+    sum += (trajectory[i].pose.translation() - trajectory[i - 1].pose.translation()).norm();
+  return sum;
+}
+
+Json robotSummary(const RunResult& result, RobotId robot) {
+  const BaseStation& base = result.base_station;
+  const auto& nodes = base.graph().robotNodes(robot);
+  Json json;
+  json["name"] = result.robots.name(robot);
+  json["key"] = std::string(1, result.robots.letter(robot));
+  json["key_nodes"] = nodes.size();
+  json["planar"] = !nodes.empty() && base.graph().node(nodes.front()).planar;
+  json["start_pose_known"] =
+      !nodes.empty() && base.tracks().packets().at(nodes.front()).prior.has_value();
+  json["odometry_length_m"] = length(base.tracks().odometryTrajectory(robot));
+  json["optimized_length_m"] = length(base.tracks().trajectory(base.graph(), robot));
+  json["scans"] = 0;
+  json["warnings"] = Json::array();
+  for (const FrontEndReport& report : result.reports) {
+    if (report.robot != robot) continue;
+    json["scans"] = report.counts.scans;
+    json["scans_without_odometry"] = report.counts.without_odometry;
+    json["empty_scans"] = report.counts.empty_scans;
+    json["warnings"] = report.warnings;
+  }
+  return json;
+}
+
+Json componentSummary(const RunResult& result, const Component& component, size_t rank) {
+  const ComponentLoops loops = countLoops(result.base_station.graph(), component);
+  Json json;
+  json["map"] = RunFolder("").mapStem(rank).substr(1);
+  json["robots"] = Json::array();
+  for (const RobotId robot : component.robots) json["robots"].push_back(result.robots.name(robot));
+  json["key_nodes"] = component.nodes.size();
+  json["inliers_within_robots"] = loops.within_robots;
+  json["inliers_between_robots"] = loops.between_robots;
+  json["anchor"] = result.robots.format(component.nodes.front());
+  return json;
+}
+
+Json frameSummary(const RunResult& result, const FrameAgreement& frames) {
+  return {{"robots", {result.robots.name(frames.a), result.robots.name(frames.b)}},
+          {"loops", frames.loops},
+          {"agreeing", frames.agreeing},
+          {"needed", frames.needed},
+          {"joined", frames.joined}};
+}
+
+/** By type: edges beside odometry, priors and loop closures, and how many are kept. */
+Json measurementSummary(const PoseGraph& graph) {
+  Json json = Json::object();
+  for (const Edge& edge : graph.edges()) {
+    if (edge.joinsPoses() || edge.type == EdgeType::kPrior) continue;
+    Json& of_type = json[toString(edge.type)];
+    if (of_type.is_null()) of_type = {{"edges", 0}, {"inliers", 0}};
+    of_type["edges"] = of_type["edges"].get<size_t>() + 1;
+    if (edge.verdict == Verdict::kInlier) of_type["inliers"] = of_type["inliers"].get<size_t>() + 1;
+  }
+  return json;
+}
+
+Json optimizationSummary(const RunResult& result) {
+  const BaseStation& base = result.base_station;
+  Json json;
+  json["optimizations"] = base.optimizations();
+  if (base.optimizations() == 0) return json;
+  const OptimizationReport& report = base.lastReport();
+  json["usable"] = report.usable;
+  json["termination"] = report.termination;
+  json["rounds"] = report.rounds;
+  json["iterations"] = report.iterations;
+  json["initial_cost"] = report.initial_cost;
+  json["final_cost"] = report.final_cost;
+  json["odometry_scale"] = report.odometry_scale;
+  json["frames"] = Json::array();
+  for (const FrameAgreement& frames : report.frames)
+    json["frames"].push_back(frameSummary(result, frames));
+  return json;
+}
+
+}  // namespace
+
+Json summarize(const RunResult& result) {
+  const BaseStation& base = result.base_station;
+  const LoopCounts loops = countLoops(base);
+  Json json;
+  json["program"] = "mrpt-lamp " + std::string(kVersion);
+  json["mrpt"] = mrpt::system::MRPT_getVersion();
+  json["seed"] = result.config.run.seed;
+  json["interrupted"] = result.interrupted;
+  json["planar"] = base.graph().planar();
+  json["key_nodes"] = base.graph().nodes().size();
+  json["loops"] = {{"candidates", loops.candidates},
+                   {"attempts", loops.attempts},
+                   {"verified", loops.verified},
+                   {"inliers", loops.inliers}};
+  json["measurements"] = measurementSummary(base.graph());
+  json["optimization"] = optimizationSummary(result);
+  json["robots"] = Json::array();
+  for (const RobotId robot : result.robots.ids())
+    json["robots"].push_back(robotSummary(result, robot));
+  json["components"] = Json::array();
+  const auto components = base.graph().components();
+  for (size_t rank = 0; rank < components.size(); ++rank)
+    json["components"].push_back(componentSummary(result, components[rank], rank));
+  json["warnings"] = result.input_warnings;
+  return json;
+}
+
+}  // namespace lamp

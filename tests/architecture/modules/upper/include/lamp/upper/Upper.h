@@ -1,0 +1,9 @@
+#pragma once
+
+namespace lamp {
+
+enum class Sent {
+  kYes,
+};
+
+}  // namespace lamp
