@@ -6,6 +6,7 @@
 #include "lamp/pose_graph/BackEnd.h"
 #include "lamp/pose_graph/Gnc.h"
 #include "lamp/pose_graph/InitialGuess.h"
+#include "rejection/OdometryChains.h"
 
 namespace lamp {
 namespace {
@@ -91,6 +92,28 @@ TEST(RobotFrames, StartPosesNeedNoAgreement) {
   const OptimizationResult result = backEnd(1000).optimize(world.graph);
   EXPECT_TRUE(result.report.frames.empty());
   for (const LoopVerdict& loop : result.loops) EXPECT_EQ(loop.verdict, Verdict::kInlier);
+}
+
+/** One robot whose odometry has gaps, with few loops between some of its pieces. */
+World piecesOfOneRobot(int loops) {
+  WorldOptions options;
+  options.robots = 1;
+  options.loops = loops;
+  World world = makeWorld(options), result;
+  for (const Node& node : world.graph.nodes()) result.graph.addNode(node);
+  for (const Edge& edge : world.graph.edges())
+    if (edge.type != EdgeType::kOdometry || edge.to.index % 30 != 0) result.graph.addEdge(edge);
+  result.truth = world.truth;
+  return result;
+}
+
+TEST(RobotFrames, PiecesOfOneRobotAreNoStrangers) {
+  const World world = piecesOfOneRobot(6);
+  ASSERT_GT(OdometryChains(world.graph).size(), 2);
+  const OptimizationResult result = backEnd(5).optimize(world.graph);
+  EXPECT_TRUE(result.report.frames.empty());
+  for (const LoopVerdict& loop : result.loops) EXPECT_EQ(loop.verdict, Verdict::kInlier);
+  EXPECT_LT(meanDistance(result.world_T_base, world.truth), 0.5);
 }
 
 TEST(InitialGuess, LoopsPlaceARobotWhoseStartIsBadlyKnown) {

@@ -17,6 +17,9 @@ void RobotFrames::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
   DisjointSets frames(static_cast<size_t>(chains.size()));
   int in_world = -1;
   for (int chain = 0; chain < chains.size(); ++chain) {
+    // Pieces of one robot, between gaps of its odometry, are no strangers.
+    if (chain > 0 && chains.first(chain).robot == chains.first(chain - 1).robot)
+      frames.join(chain - 1, chain);
     if (!chains.hasPrior(chain)) continue;
     if (in_world >= 0) frames.join(in_world, chain);
     in_world = chain;

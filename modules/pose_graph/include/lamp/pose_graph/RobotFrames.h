@@ -13,7 +13,8 @@ struct RobotFramesOptions {
 /** Keeps robots apart that nothing but a few loop closures relates: without start poses there is no
  * odometry between them that could contradict a false one. The loops between two robots (chains of
  * odometry) are averaged robustly (frameAverages()); the robots are joined when enough of them
- * agree, each with key nodes of its own. Until then all loops between them stay out. */
+ * agree, each with key nodes of its own. Until then all loops between them stay out. Pieces of one
+ * robot, between gaps of its odometry, need no such agreement. */
 class RobotFrames : public OutlierRejection {
   DEFINE_MRPT_OBJECT(RobotFrames, lamp)
 
