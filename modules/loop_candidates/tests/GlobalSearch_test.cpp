@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <utility>
 
 namespace lamp {
 namespace {
@@ -47,8 +48,14 @@ TEST(GlobalSearch, TheOlderKeyNodeComesFirst) {
   PoseGraph graph;
   addNodes(graph, kA, 2, false);
   addNodes(graph, kB, 2, false);
-  for (const auto& candidate : GlobalSearch().propose(graph, {kA, 1}))
-    EXPECT_EQ(candidate.from.robot, kA);
+  for (const auto& [current, other] : {std::pair(kA, kB), std::pair(kB, kA)}) {
+    const auto candidates = GlobalSearch().propose(graph, {current, 1});
+    ASSERT_EQ(candidates.size(), 2u) << "both key nodes of the other robot";
+    for (const auto& candidate : candidates) {
+      EXPECT_EQ(candidate.from.robot, kA);
+      EXPECT_EQ(candidate.to.robot, kB);
+    }
+  }
 }
 
 TEST(GlobalSearch, HasNothingToDoWhereAFrameIsShared) {

@@ -60,9 +60,14 @@ TEST(CandidateQueue, LaterCandidatesCanOvertake) {
   EXPECT_EQ(indices(queue.take(0, newest, graph, NoUncertainty{})), (std::vector<uint32_t>{9, 3}));
 }
 
-TEST(Prioritizer, ArrivalIsRegistered) {
-  registerAllClasses_lamp_loop_priority();
-  EXPECT_EQ(stageClasses(CLASS_ID(Prioritizer)), std::vector<std::string>{"Arrival"});
+TEST(Arrival, TakesNoNoticeOfEarlierPriorities) {
+  std::vector<LoopClosureCandidate> list = candidates({5, 3, 4});
+  list[0].priority = 1;
+  list[1].priority = 9;
+  list[2].priority = 5;
+  Arrival().order(list, PoseGraph(), NoUncertainty{});
+  EXPECT_EQ(indices(list), (std::vector<uint32_t>{5, 3, 4}));
+  for (const LoopClosureCandidate& candidate : list) EXPECT_EQ(candidate.priority, 0);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../../scans/tests/TestRooms.h"
-#include "lamp/core/Stage.h"
+#include "StageSuite.h"
 #include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/scans/PreparedScan.h"
 
@@ -49,15 +49,6 @@ inline std::vector<std::string> registered(const mrpt::rtti::TRuntimeClassId* ba
   return stageClasses(base);
 }
 
-/** The stage with its default options, as the ini makes it. */
-template <class Base>
-std::shared_ptr<Base> makeDefault(const std::string& name) {
-  Faults faults;
-  auto stage = makeStage<Base>(StageName::parse(name), "stage", "", Ini{}, faults);
-  faults.throwIfAny();
-  return stage;
-}
-
 struct NamedPoints {
   std::string name;
   Points points;
@@ -70,11 +61,6 @@ inline std::vector<NamedPoints> hopelessClouds() {
           {"three points", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
           {"equal points", Points(50, Eigen::Vector3f(1, 1, 1))},
           {"far away", moved(roomPoints(300, 0.01f, 5), expSE3(tangent(500, 300, 0, 0, 0, 0)))}};
-}
-
-/** The name of a test of one stage. */
-inline std::string testName(const testing::TestParamInfo<std::string>& info) {
-  return info.param;
 }
 
 }  // namespace lamp::test
