@@ -50,12 +50,16 @@ std::unique_ptr<ScanAssembler> makeAssembler(const FrontEndOptions& options) {
 
 void FrontEndOptions::visit(OptionVisitor& v) {
   v("keyed", keyed,
-    "recordings hold key nodes: the clouds of one stamp are one, and stay as they are");
-  v("key_node_distance_m", key_node_distance_m, "m", "a new key node after this motion", kPositive);
-  v("key_node_angle_deg", key_node_angle_deg, "deg", "a new key node after this turning",
+    "the recordings already hold key nodes: clouds with the same stamp form one keyed scan, which "
+    "is not filtered again");
+  v("key_node_distance_m", key_node_distance_m, "m",
+    "distance travelled before a new key node is added; smaller values give more loop closures and "
+    "take more time",
+    kPositive);
+  v("key_node_angle_deg", key_node_angle_deg, "deg", "rotation before a new key node is added",
     kPositive);
   v("merge_window_s", merge_window_s, "s",
-    "scans of a robot's other lidars join a keyed scan if they are no older", kNotNegative);
+    "maximum age of the other lidars' scans that are merged into a keyed scan", kNotNegative);
   scan.visit(v);
   voxel.visit(v);
   motion.visit(v);

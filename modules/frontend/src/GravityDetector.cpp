@@ -15,14 +15,15 @@ constexpr size_t kFewestSamples = 10;
 
 void GravityOptions::visit(OptionVisitor& v) {
   v("gravity_window_s", gravity_window_s, "s",
-    "an inertial unit tells roll and pitch where nothing but gravity acts on it for this time",
+    "roll and pitch are taken from an IMU that has felt nothing but gravity for this long",
     kPositive);
-  v("gravity_max_turn_rad_s", gravity_max_turn_rad_s, "rad/s", "largest turn rate in that time",
+  v("gravity_max_turn_rad_s", gravity_max_turn_rad_s, "rad/s", "maximum turn rate during that time",
     kPositive);
   v("gravity_max_change_m_s2", gravity_max_change_m_s2, "m/s2",
-    "largest difference of the mean forces in the two halves of that time", kPositive);
+    "maximum difference between the mean accelerations in the two halves of that time", kPositive);
   v("gravity_sigma_deg", gravity_sigma_deg, "deg",
-    "standard deviation of roll and pitch so told: alignment of the unit, its biases", kPositive);
+    "standard deviation of roll and pitch measured this way: mounting error and biases of the IMU",
+    kPositive);
 }
 
 std::optional<GravityReading> GravityDetector::observe(double stamp,

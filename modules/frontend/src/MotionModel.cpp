@@ -5,14 +5,16 @@
 namespace lamp {
 
 void MotionModelOptions::visit(OptionVisitor& v) {
-  v("sigma_m_per_m", sigma_m_per_m, "m/m", "odometry's position error per metre of way",
+  v("sigma_m_per_m", sigma_m_per_m, "m/m", "odometry's position error per metre travelled",
     kNotNegative);
-  v("sigma_rad_per_m", sigma_rad_per_m, "rad/m", "odometry's rotation error per metre of way",
+  v("sigma_rad_per_m", sigma_rad_per_m, "rad/m", "odometry's rotation error per metre travelled",
     kNotNegative);
-  v("sigma_rad_per_rad", sigma_rad_per_rad, "rad/rad", "odometry's rotation error per turning",
-    kNotNegative);
-  v("min_sigma_m", min_sigma_m, "m", "least position error of an odometry edge", kPositive);
-  v("min_sigma_rad", min_sigma_rad, "rad", "least rotation error of an odometry edge", kPositive);
+  v("sigma_rad_per_rad", sigma_rad_per_rad, "rad/rad",
+    "odometry's rotation error per radian turned", kNotNegative);
+  v("min_sigma_m", min_sigma_m, "m", "lower bound on the position error of an odometry edge",
+    kPositive);
+  v("min_sigma_rad", min_sigma_rad, "rad", "lower bound on the rotation error of an odometry edge",
+    kPositive);
 }
 
 void Path::add(const Pose3& motion) {

@@ -42,10 +42,11 @@ std::optional<SensorReturns> returnsOfAny(const CObservation& observation) {
 }  // namespace
 
 void ScanOptions::visit(OptionVisitor& v) {
-  v("min_range_m", min_range_m, "m", "returns nearer to the lidar are left out", kNotNegative);
-  v("max_range_m", max_range_m, "m", "returns farther from the lidar are left out", kPositive);
+  v("min_range_m", min_range_m, "m", "closer returns are dropped", kNotNegative);
+  v("max_range_m", max_range_m, "m", "farther returns are dropped", kPositive);
   v("laser_aperture_deg", laser_aperture_deg, "deg",
-    "field of view of 2D lasers, where the recording has it wrong; 0 as recorded", {0, 360});
+    "field of view of 2D lasers if the recording states it wrongly; 0 keeps the recorded one",
+    {0, 360});
 }
 
 bool isLidar(const CObservation& o) {

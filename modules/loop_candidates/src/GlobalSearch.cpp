@@ -9,7 +9,7 @@ namespace lamp {
 
 void GlobalSearchOptions::visit(OptionVisitor& v) {
   v("max_per_robot", max_per_robot, "",
-    "candidates for a key node and each robot that shares no frame with it", {1});
+    "maximum number of candidates per key node and robot that does not yet share its frame", {1});
 }
 
 std::vector<LoopClosureCandidate> GlobalSearch::propose(const PoseGraph& graph,

@@ -56,22 +56,26 @@ void FixedRadiusOptions::visit(OptionVisitor& v) {
   v("between_robots_radius_m", between_robots_radius_m, "m", "search radius between robots",
     kPositive);
   v("min_index_gap", min_index_gap, "key nodes",
-    "key nodes of one robot that are nearer in sequence are no loop", {1});
-  v("max_per_robot", max_per_robot, "", "candidates for a key node and each robot, nearest first",
+    "key nodes of one robot closer than this in sequence are not loop closure candidates", {1});
+  v("max_per_robot", max_per_robot, "",
+    "maximum number of candidates per key node and robot, nearest first; more find more loop "
+    "closures and take more time",
     {1});
 }
 
 void AdaptiveRadiusOptions::visit(OptionVisitor& v) {
-  v("alpha_m", alpha_m, "m", "growth of the search radius per key node", kPositive);
-  v("min_radius_m", min_radius_m, "m", "smallest search radius within a robot", kPositive);
-  v("max_radius_m", max_radius_m, "m", "largest search radius within a robot", kPositive);
+  v("alpha_m", alpha_m, "m", "growth of the search radius per key node travelled", kPositive);
+  v("min_radius_m", min_radius_m, "m", "minimum search radius within a robot", kPositive);
+  v("max_radius_m", max_radius_m, "m", "maximum search radius within a robot", kPositive);
   v("between_robots_min_radius_m", between_robots_min_radius_m, "m",
-    "smallest search radius between robots", kPositive);
+    "minimum search radius between robots", kPositive);
   v("between_robots_max_radius_m", between_robots_max_radius_m, "m",
-    "largest search radius between robots", kPositive);
+    "maximum search radius between robots", kPositive);
   v("min_index_gap", min_index_gap, "key nodes",
-    "key nodes of one robot that are nearer in sequence are no loop", {1});
-  v("max_per_robot", max_per_robot, "", "candidates for a key node and each robot, nearest first",
+    "key nodes of one robot closer than this in sequence are not loop closure candidates", {1});
+  v("max_per_robot", max_per_robot, "",
+    "maximum number of candidates per key node and robot, nearest first; more find more loop "
+    "closures and take more time",
     {1});
 }
 

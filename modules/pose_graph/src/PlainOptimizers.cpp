@@ -12,9 +12,9 @@ IMPLEMENTS_MRPT_OBJECT(CeresLm, PlainOptimizer, lamp)
 namespace lamp {
 
 void SolverOptions::visit(OptionVisitor& v) {
-  v("max_iterations", max_iterations, "", "most iterations of a solve", kPositive);
+  v("max_iterations", max_iterations, "", "maximum number of iterations per solve", kPositive);
   v("function_tolerance", function_tolerance, "",
-    "a solve stops when an iteration lowers the cost by less than this share", kNotNegative);
+    "a solve stops when an iteration lowers the cost by less than this fraction", kNotNegative);
 }
 
 namespace {

@@ -14,8 +14,8 @@ BothDirections::BothDirections() {
 }
 
 void BothDirectionsOptions::visit(OptionVisitor& v) {
-  v("max_distance_m", max_distance_m, "m", "how far both results may lie apart", kPositive);
-  v("max_angle_deg", max_angle_deg, "deg", "how far both results may lie apart", kPositive);
+  v("max_distance_m", max_distance_m, "m", "maximum difference between the two results", kPositive);
+  v("max_angle_deg", max_angle_deg, "deg", "maximum difference between the two results", kPositive);
   icp.visit(v);
 }
 

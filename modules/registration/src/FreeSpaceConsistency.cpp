@@ -9,9 +9,10 @@ IMPLEMENTS_MRPT_OBJECT(FreeSpaceConsistency, lamp::Verifier, lamp)
 namespace lamp {
 
 void FreeSpaceConsistencyOptions::visit(OptionVisitor& v) {
-  v("max_share", max_share, "", "share of points that may lie where the other scan saw nothing",
-    kShare);
-  v("margin_m", margin_m, "m", "how far before a surface still counts as on it", kPositive);
+  v("max_share", max_share, "",
+    "maximum fraction of points lying where the other scan's rays passed through", kShare);
+  v("margin_m", margin_m, "m", "distance in front of a surface that still counts as on it",
+    kPositive);
 }
 
 Verification FreeSpaceConsistency::verify(const RegistrationResult& result,

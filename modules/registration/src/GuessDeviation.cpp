@@ -42,7 +42,8 @@ int rank(const Eigen::Matrix3d& information) {
 }  // namespace
 
 void GuessDeviationOptions::visit(OptionVisitor& v) {
-  v("probability", probability, "", "share of right registrations that pass", {0.5, 1.0 - 1e-12});
+  v("probability", probability, "", "probability that a correct registration passes",
+    {0.5, 1.0 - 1e-12});
   v("slack_m", slack_m, "m", "standard deviation added to the guess's position", kPositive);
   v("slack_deg", slack_deg, "deg", "standard deviation added to the guess's rotation", kPositive);
 }

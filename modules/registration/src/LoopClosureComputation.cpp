@@ -10,12 +10,12 @@ namespace lamp {
 
 void AmbiguityOptions::visit(OptionVisitor& v) {
   v("ambiguity_distance_m", ambiguity_distance_m, "m",
-    "two accepted hypotheses that lie farther apart differ", kPositive);
+    "two accepted hypotheses farther apart than this count as different answers", kPositive);
   v("ambiguity_angle_deg", ambiguity_angle_deg, "deg",
-    "two accepted hypotheses that lie farther apart differ", kPositive);
+    "two accepted hypotheses farther apart than this count as different answers", kPositive);
   v("ambiguity_overlap", ambiguity_overlap, "",
-    "of two that differ the one with the greater overlap is taken, unless the other has this share "
-    "of it: then both are refused",
+    "of two different answers the one with more overlap is taken, unless the other reaches this "
+    "fraction of it: then the pair is refused as ambiguous",
     kShare);
 }
 

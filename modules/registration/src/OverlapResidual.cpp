@@ -6,9 +6,11 @@ namespace lamp {
 
 void OverlapResidualOptions::visit(OptionVisitor& v) {
   v("min_overlap", min_overlap, "",
-    "share of the source's own points that need a partner among the target's own", kShare);
-  v("max_residual_m", max_residual_m, "m", "largest r.m.s. point-to-plane distance", kPositive);
-  v("partner_distance_m", partner_distance_m, "m", "how near a partner must lie", kPositive);
+    "minimum fraction of the source's own points that have a correspondence among the target's own",
+    kShare);
+  v("max_residual_m", max_residual_m, "m", "maximum r.m.s. point-to-plane distance", kPositive);
+  v("partner_distance_m", partner_distance_m, "m", "maximum distance to a correspondence",
+    kPositive);
 }
 
 Verification OverlapResidual::verify(const RegistrationResult& result, const PreparedScan& source,

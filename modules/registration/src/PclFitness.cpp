@@ -28,8 +28,8 @@ double fitness(const PreparedScan& source, const PreparedScan& target, const Pos
 
 void PclFitnessOptions::visit(OptionVisitor& v) {
   v("max_alignment_m2", max_alignment_m2, "m2",
-    "largest mean squared distance after the initial alignment", kPositive);
-  v("max_refined_m2", max_refined_m2, "m2", "largest mean squared distance after the refinement",
+    "maximum mean squared distance after the initial alignment", kPositive);
+  v("max_refined_m2", max_refined_m2, "m2", "maximum mean squared distance after the refinement",
     kPositive);
 }
 

@@ -6,11 +6,14 @@ namespace lamp {
 
 void PreparationOptions::visit(OptionVisitor& v) {
   v("accumulate_neighbors", accumulate_neighbors, "key nodes",
-    "neighbours on each side whose scans join a key node's", kNotNegative);
+    "neighbouring key nodes on each side whose scans are merged into a key node's", kNotNegative);
   v("accumulate_voxel_m", accumulate_voxel_m, "m",
-    "neighbours' points join where no other lies in a voxel of this edge", kPositive);
+    "a neighbour's point is added only if no other point lies in its voxel of this size",
+    kPositive);
   v("memory_limit_mb", memory_limit_mb, "MB",
-    "memory of prepared scans; what was not used for longest is prepared again when needed", {1});
+    "memory for prepared scans; the least recently used ones are dropped and prepared again when "
+    "needed",
+    {1});
   scan.visit(v);
 }
 

@@ -68,17 +68,16 @@ class WeakMotions {
 }  // namespace
 
 void RegistrationInformationOptions::visit(OptionVisitor& v) {
-  v("sigma_m", sigma_m, "m", "noise of a patch of surface, added to the residual's", kPositive);
+  v("sigma_m", sigma_m, "m", "noise of a surface patch, added to that of the residuals", kPositive);
   v("min_translation_observability", min_translation_observability, "",
-    "translations that a smaller share of the points stands in the way of carry no information",
-    kShare);
+    "translations constrained by a smaller fraction of the points get no information", kShare);
   v("min_rotation_observability", min_rotation_observability, "",
-    "the same for rotations, as lengths at the points' r.m.s. distance: about a tunnel's axis the "
-    "levers are short",
+    "the same for rotations, as lengths at the points' r.m.s. distance; smaller because lever arms "
+    "about a tunnel's axis are short",
     kShare);
   v("common_share", common_share, "",
-    "share of the patches' deviation that is the same in all of them (a bent scan), so that no "
-    "number of patches averages it out",
+    "fraction of the patches' deviation that all patches share (a bent scan), which no number of "
+    "patches averages out",
     kPositive);
 }
 

@@ -104,13 +104,14 @@ std::vector<Eigen::Index> mostDistinctive(const Features::Descriptors& descripto
 }  // namespace
 
 void FeatureOptions::visit(OptionVisitor& v) {
-  v("feature_voxel_m", voxel_m, "m", "edge of the voxels that descriptors are computed on",
+  v("feature_voxel_m", voxel_m, "m", "voxel size of the clouds that descriptors are computed on",
     kPositive);
   v("feature_normal_neighbors", normal_neighbors, "points",
-    "nearest voxels that a descriptor's normals are fitted to", {3});
-  v("descriptor_radius_m", descriptor_radius_m, "m", "how far a descriptor looks", kPositive);
-  v("max_keypoints", max_keypoints, "points", "keypoints of a scan; the most distinctive stay",
-    {10});
+    "number of nearest voxels used to fit a descriptor's normals", {3});
+  v("descriptor_radius_m", descriptor_radius_m, "m", "radius of a descriptor's neighbourhood",
+    kPositive);
+  v("max_keypoints", max_keypoints, "points",
+    "maximum number of keypoints per scan; the most distinctive are kept", {10});
 }
 
 Features computeFeatures(const Cloud& cloud, const FeatureOptions& options, double coarseness) {

@@ -95,18 +95,21 @@ GlobalPose withInliers(const Pose3& pose, const std::vector<PointPair>& pairs, d
 }  // namespace
 
 void ConsistencyOptions::visit(OptionVisitor& v) {
-  v("match_rank", match_rank, "", "keypoints match that are among each other's most similar ones",
-    {1, 10});
-  v("noise_bound_m", noise_bound_m, "m", "error that a right match may have; near the voxel size",
-    kPositive);
+  v("match_rank", match_rank, "",
+    "two keypoints match if each is among the other's this many most similar ones", {1, 10});
+  v("noise_bound_m", noise_bound_m, "m",
+    "maximum error of a correct match; close to the voxel size", kPositive);
   v("max_normal_angle_deg", max_normal_angle_deg, "deg",
-    "error that the angle between two normals may have", kPositive);
-  v("min_inliers", min_inliers, "matches", "fewer that agree are no hypothesis", {3});
-  v("max_hypotheses", max_hypotheses, "", "hypotheses that may go on to the refinement", {1});
+    "maximum error of the angle between two normals of correct matches", kPositive);
+  v("min_inliers", min_inliers, "matches", "minimum number of agreeing matches for a hypothesis",
+    {3});
+  v("max_hypotheses", max_hypotheses, "",
+    "maximum number of hypotheses passed on to the refinement", {1});
   v("guess_probability", guess_probability, "",
-    "share of right matches that the guess, where its error is known, lets pass",
+    "probability that a correct match is consistent with the guess, where the guess's covariance "
+    "is known",
     {0.5, 1.0 - 1e-12});
-  v("upright", upright, "rotation about z only: where both scans are level");
+  v("upright", upright, "search rotations about z only, for scans that are both level");
 }
 
 std::vector<GlobalPose> alignByConsistency(const Features& source, const Features& target,

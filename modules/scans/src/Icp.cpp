@@ -171,20 +171,21 @@ class Schedule {
 }  // namespace
 
 void IcpOptions::visit(OptionVisitor& v) {
-  v("max_iterations", max_iterations, "", "Gauss-Newton iterations at most", {1});
+  v("max_iterations", max_iterations, "", "maximum number of Gauss-Newton iterations", {1});
   v("start_correspondence_m", start_correspondence_m, "m",
-    "how far partners may lie apart in the first iteration", kPositive);
+    "maximum correspondence distance in the first iteration", kPositive);
   v("correspondence_m", correspondence_m, "m",
-    "how far partners may lie apart in the last iterations", kPositive);
-  v("shrink_factor", shrink_factor, "", "shrinks that distance after each iteration", {0.1, 0.99});
-  v("kernel_m", kernel_m, "m", "residual at which a match loses three quarters of its weight",
-    kPositive);
+    "maximum correspondence distance in the last iterations", kPositive);
+  v("shrink_factor", shrink_factor, "",
+    "factor applied to the correspondence distance after each iteration", {0.1, 0.99});
+  v("kernel_m", kernel_m, "m",
+    "residual at which a correspondence has lost three quarters of its weight", kPositive);
   v("plane_thickness", plane_thickness, "",
-    "variance across a surface, as a share of that along it", {1e-6, 1});
-  v("translation_tolerance_m", translation_tolerance_m, "m", "a smaller step ends the iterations",
-    kPositive);
-  v("rotation_tolerance_deg", rotation_tolerance_deg, "deg", "a smaller step ends the iterations",
-    kPositive);
+    "variance across a surface, as a fraction of that along it", {1e-6, 1});
+  v("translation_tolerance_m", translation_tolerance_m, "m",
+    "the iterations end with a smaller step", kPositive);
+  v("rotation_tolerance_deg", rotation_tolerance_deg, "deg",
+    "the iterations end with a smaller step", kPositive);
 }
 
 IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose3& start,

@@ -78,7 +78,7 @@ double coarsenessOf(const Cloud& cloud, const KdTree& tree) {
 }  // namespace
 
 void ScanPreparationOptions::visit(OptionVisitor& v) {
-  v("normal_neighbors", normal_neighbors, "points", "nearest points that a normal is fitted to",
+  v("normal_neighbors", normal_neighbors, "points", "number of nearest points used to fit a normal",
     {3});
   features.visit(v);
 }

@@ -42,12 +42,12 @@ Fit fitOf(const Pose3& pose, const Features& source, const PreparedScan& target,
 }  // namespace
 
 void SampleConsensusOptions::visit(OptionVisitor& v) {
-  v("iterations", iterations, "", "poses that are tried", {1});
+  v("iterations", iterations, "", "number of poses tried", {1});
   v("similar_keypoints", similar_keypoints, "",
-    "most similar keypoints among which a sample's partner is drawn", {1});
-  v("min_sample_distance_m", min_sample_distance_m, "m", "how far samples lie apart at least",
+    "a sample's match is drawn from this many most similar keypoints", {1});
+  v("min_sample_distance_m", min_sample_distance_m, "m", "minimum distance between samples",
     kNotNegative);
-  v("correspondence_m", correspondence_m, "m", "larger distances count as this one", kPositive);
+  v("correspondence_m", correspondence_m, "m", "distances are truncated at this value", kPositive);
   v("seed", seed, "", "of the samples", kNotNegative);
 }
 

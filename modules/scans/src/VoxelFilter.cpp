@@ -61,11 +61,15 @@ Scan voxelFilter(const Scan& scan, double leaf_m) {
 }
 
 void AdaptiveVoxelOptions::visit(OptionVisitor& v) {
-  v("target_points", target_points, "", "number of points that a keyed scan should have", {1});
+  v("target_points", target_points, "",
+    "number of points the adaptive voxel filter aims for; more points cost time, fewer cost "
+    "accuracy",
+    {1});
   v("initial_leaf_m", initial_leaf_m, "m", "leaf size for the first scan", kPositive);
   v("min_leaf_m", min_leaf_m, "m", "smallest leaf size", kPositive);
   v("max_leaf_m", max_leaf_m, "m", "largest leaf size", kPositive);
-  v("max_passes", max_passes, "", "how often one scan is filtered to come near the target", {1});
+  v("max_passes", max_passes, "",
+    "maximum number of filter passes over one scan to reach the target", {1});
 }
 
 AdaptiveVoxelFilter::AdaptiveVoxelFilter(const AdaptiveVoxelOptions& options)

@@ -85,8 +85,11 @@ void WorldOptions::visit(OptionVisitor& v) {
 }
 
 void KeyedOptions::visit(OptionVisitor& v) {
-  v("key_node_distance_m", key_node_distance_m, "m", "a new key node after this motion", kPositive);
-  v("key_node_angle_deg", key_node_angle_deg, "deg", "a new key node after this turning",
+  v("key_node_distance_m", key_node_distance_m, "m",
+    "distance travelled before a new key node is added; smaller values give more loop closures and "
+    "take more time",
+    kPositive);
+  v("key_node_angle_deg", key_node_angle_deg, "deg", "rotation before a new key node is added",
     kPositive);
   v("max_points", max_points, "", "points of a keyed scan at most", {10, 5000});
   v("rotation_s", rotation_s, "s", "time over which the sweeps of a rotating mount are merged",

@@ -90,32 +90,35 @@ void anchorPaths(Ini& ini, const fs::path& folder) {
 }  // namespace
 
 void PluginOptions::visit(OptionVisitor& v) {
-  v("load", load, "libraries with further stages");
+  v("load", load, "plugin libraries that add further stages");
 }
 
 void InputOptions::visit(OptionVisitor& v) {
-  v("rawlogs", rawlogs, "recordings, beside those that [robot.NAME] sections name");
+  v("rawlogs", rawlogs, "recordings, in addition to those named in [robot.NAME] sections");
   v("order", order,
-    "order of the key nodes at the base station: as recorded, or by the robots' arrivals files",
+    "order in which key nodes reach the base station: as recorded, or as listed in the robots' "
+    "arrivals files",
     {"recorded", "arrival"});
 }
 
 void RunOptions::visit(OptionVisitor& v) {
-  v("seed", seed, "", "seed of everything random", kNotNegative);
+  v("seed", seed, "", "seed of every random choice", kNotNegative);
 }
 
 void BaseStationOptions::visit(OptionVisitor& v) {
   v("closures_per_round", closures_per_round, "",
-    "loop closures computed after each key node, 0 for all that wait", kNotNegative);
+    "loop closures computed after each key node; 0 computes all waiting candidates", kNotNegative);
   v("optimize_min_loops", optimize_min_loops, "loops",
-    "new loop closures that start an optimisation", {1});
+    "minimum number of new loop closures that triggers an optimisation", {1});
   v("optimize_growth", optimize_growth, "",
-    "an optimisation waits until the loop closures have grown by this share", kNotNegative);
+    "an optimisation also waits until the number of loop closures has grown by this fraction; "
+    "larger values save time on long runs",
+    kNotNegative);
   v("repropose_distance_m", repropose_distance_m, "m",
-    "candidates are sought again for key nodes that optimisation has moved this far", kPositive);
+    "key nodes that optimisation has moved this far are searched for candidates again", kPositive);
   v("retry_distance_m", retry_distance_m, "m",
-    "a refused candidate is tried again if its guess has moved this far", kPositive);
-  v("max_attempts", max_attempts, "", "attempts for one pair of key nodes", {1});
+    "a refused candidate is tried again once its guess has moved this far", kPositive);
+  v("max_attempts", max_attempts, "", "maximum number of attempts per pair of key nodes", {1});
 }
 
 SlamConfig SlamConfig::fromFile(const std::string& path, const std::vector<std::string>& overrides,

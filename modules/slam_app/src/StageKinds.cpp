@@ -21,23 +21,24 @@ const std::vector<StageKind>& stageKinds() {
   static const std::vector<StageKind> kinds = {
       {"odometry", "odometry source", "odometry source", CLASS_ID(OdometrySource), &P::odometry,
        C::kExactlyOne},
-      {"candidates", "candidate generator", "candidate generators; none gives odometry only",
+      {"candidates", "candidate generator",
+       "candidate generators; with none, the map follows odometry alone",
        CLASS_ID(CandidateGenerator), &P::candidates, C::kAny},
-      {"priority", "prioritizer", "prioritizer of candidates", CLASS_ID(Prioritizer), &P::priority,
-       C::kExactlyOne},
+      {"priority", "prioritizer", "decides the order in which candidates are computed",
+       CLASS_ID(Prioritizer), &P::priority, C::kExactlyOne},
       {"initial_aligner", "initial aligner",
-       "first stage of the loop closure computation; each is tried if those before it found no "
-       "loop",
+       "first stage of the loop closure computation; each is tried only if the ones before it "
+       "found no loop closure",
        CLASS_ID(InitialAligner), &P::initial_aligner, C::kAtLeastOne},
       {"refiner", "refiner", "second stage of the loop closure computation", CLASS_ID(Refiner),
        &P::refiner, C::kExactlyOne},
       {"verifiers", "verifier", "all of these must accept a loop closure", CLASS_ID(Verifier),
        &P::verifiers, C::kAny},
       {"outlier_rejection", "outlier rejection",
-       "what sorts out loop closures before the optimizer, one after the other",
+       "stages that reject loop closures before the optimizer runs, applied in this order",
        CLASS_ID(OutlierRejection), &P::outlier_rejection, C::kAny},
       {"optimizer", "optimizer", "back end", CLASS_ID(Optimizer), &P::optimizer, C::kExactlyOne},
-      {"exporters", "map exporter", "kinds of map to write", CLASS_ID(MapExporter), &P::exporters,
+      {"exporters", "map exporter", "map formats to write", CLASS_ID(MapExporter), &P::exporters,
        C::kAny}};
   return kinds;
 }
@@ -50,7 +51,7 @@ const StageKind& stageKind(const mrpt::rtti::TRuntimeClassId* base) {
 
 void PipelineOptions::visit(OptionVisitor& v) {
   for (const StageKind& kind : stageKinds()) v(kind.key, this->*kind.names, kind.meaning);
-  v("inter_robot_loops", inter_robot_loops, "search loop closures between robots");
+  v("inter_robot_loops", inter_robot_loops, "search for loop closures between robots");
 }
 
 void registerAllClasses_lamp() {

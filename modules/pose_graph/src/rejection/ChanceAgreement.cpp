@@ -57,11 +57,11 @@ class Chance {
 
 void ChanceAgreementOptions::visit(OptionVisitor& v) {
   v("max_chance", max_chance, "",
-    "loop closures stay out if a false one agrees with odometry and its neighbours so well with "
-    "this probability",
+    "a loop closure stays out if a false one would agree this well with odometry and neighbouring "
+    "loop closures with more than this probability",
     kShare);
   v("partner_nodes", partner_nodes, "key nodes",
-    "loop closures are compared if both their ends are this near", {1});
+    "two loop closures are compared if both their ends are this close in sequence", {1});
 }
 
 void ChanceAgreement::reject(const PoseGraph& graph, std::vector<bool>& admitted) {

@@ -93,15 +93,18 @@ Icm::Icm(const IcmOptions& options) : options_(options) {}
 Icm::~Icm() = default;
 
 void IcmOptions::visit(OptionVisitor& v) {
-  v("test", test, "how it is told whether two loop closures agree", {kUncertainty, kPerNode});
+  v("test", test, "consistency test for two loop closures", {kUncertainty, kPerNode});
   v("inlier_probability", inlier_probability, "",
-    "test uncertainty: share of pairs of true loop closures that are to agree", {0.0, 1.0 - 1e-12});
+    "test uncertainty: probability that two true loop closures are found consistent",
+    {0.0, 1.0 - 1e-12});
   v("max_translation_per_node_m", max_translation_per_node_m, "m",
-    "test per_node: largest gap of a cycle for each key node that it passes", kPositive);
+    "test per_node: maximum translation error of a cycle per key node on it", kPositive);
   v("max_rotation_per_node_rad", max_rotation_per_node_rad, "rad",
-    "test per_node: largest rotation of a cycle for each key node that it passes", kPositive);
+    "test per_node: maximum rotation error of a cycle per key node on it", kPositive);
   v("max_search_steps", max_search_steps, "",
-    "for each new loop closure, the search for a larger set is exact within so many steps", {1});
+    "maximum number of search steps per new loop closure; the largest consistent set is exact "
+    "within them",
+    {1});
 }
 
 void Icm::reject(const PoseGraph& graph, std::vector<bool>& admitted) {

@@ -108,10 +108,10 @@ Scale fittingScale(const std::vector<GatedLoop>& loops, const OdometryGateOption
 }  // namespace
 
 void OdometryGateOptions::visit(OptionVisitor& v) {
-  v("inlier_probability", inlier_probability, "", "share of true loop closures that are to pass",
+  v("inlier_probability", inlier_probability, "", "probability that a true loop closure passes",
     {0.0, 1.0 - 1e-12});
-  v("max_scale", max_scale, "",
-    "how many times larger than stated the covariances of odometry may be taken", {1.0});
+  v("max_scale", max_scale, "", "maximum factor by which odometry covariances may be scaled up",
+    {1.0});
 }
 
 void OdometryGate::reject(const PoseGraph& graph, std::vector<bool>& admitted) {

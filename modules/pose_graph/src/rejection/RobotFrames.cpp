@@ -9,7 +9,7 @@ namespace lamp {
 
 void RobotFramesOptions::visit(OptionVisitor& v) {
   v("min_agreeing", min_agreeing, "",
-    "robots without start poses are joined when so many loop closures between them agree", {1});
+    "number of agreeing loop closures needed to join robots without start poses", {1});
 }
 
 void RobotFrames::reject(const PoseGraph& graph, std::vector<bool>& admitted) {

@@ -290,21 +290,20 @@ class GncRun {
 
 void GncOptions::visit(OptionVisitor& v) {
   v("solver", solver, "least-squares solver of each round", solverNames());
-  v("loss", loss, "robust cost that the rounds lead to", {kTruncated, kGemanMcClure});
+  v("loss", loss, "robust cost function", {kTruncated, kGemanMcClure});
   v("inlier_probability", inlier_probability, "",
-    "share of true loop closures whose squared residual is to stay below the threshold",
+    "probability that a true loop closure's squared residual is below the threshold",
     {0.0, 1.0 - 1e-12});
-  v("mu_step", mu_step, "", "factor by which the control parameter mu moves from round to round",
-    {1.01});
-  v("max_rounds", max_rounds, "", "most rounds of graduation", kPositive);
-  v("inner_iterations", inner_iterations, "", "most iterations of the solve in each round",
+  v("mu_step", mu_step, "", "factor by which the control parameter mu changes per round", {1.01});
+  v("max_rounds", max_rounds, "", "maximum number of rounds", kPositive);
+  v("inner_iterations", inner_iterations, "", "maximum number of iterations in each round",
     kPositive);
   v("gnc_bias_odom", gnc_bias_odom,
-    "if the loops contradict one another, weigh them first by odometry alone, not by the solution "
-    "that all of them have distorted");
+    "if loop closures contradict one another, weight them first by odometry alone instead of by "
+    "the solution distorted by all of them");
   v("incremental", incremental,
-    "start a graph that has grown from the last solution and verdicts, and graduate new loops "
-    "only");
+    "when the graph has grown, start from the last solution and verdicts and graduate only the new "
+    "loop closures");
   final_solve.visit(v);
 }
 

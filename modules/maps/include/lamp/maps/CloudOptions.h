@@ -10,7 +10,8 @@ struct CloudOptions {
 
   void visit(OptionVisitor& v) {
     v("voxel_m", voxel_m, "m",
-      "edge of the voxels that keep one point each, the first; 0 keeps every point", kNotNegative);
+      "voxel size of the output; each voxel keeps its first point; 0 keeps every point",
+      kNotNegative);
   }
 };
 

@@ -19,17 +19,15 @@ struct OctoMapOptions {
   void visit(OptionVisitor& v) {
     // 0 and 1 are left out: they have no finite log-odds.
     constexpr Range kLikely{0.5, 0.999}, kUnlikely{0.001, 0.5}, kBetween{0.001, 0.999};
-    v("resolution_m", resolution_m, "m", "edge of the smallest voxels", kPositive);
+    v("resolution_m", resolution_m, "m", "voxel size", kPositive);
     v("max_range_m", max_range_m, "m",
-      "longer rays are cut here: they carve free space and end in nothing", kPositive);
-    v("prob_hit", prob_hit, "", "occupancy that one scan gives to a voxel where a ray ends",
-      kLikely);
-    v("prob_miss", prob_miss, "", "occupancy that one scan gives to a voxel that a ray passes",
-      kUnlikely);
-    v("clamping_min", clamping_min, "", "occupancy below which a voxel does not fall", kUnlikely);
-    v("clamping_max", clamping_max, "", "occupancy above which a voxel does not rise", kLikely);
+      "longer rays are cut at this range: they mark free space but no obstacle", kPositive);
+    v("prob_hit", prob_hit, "", "occupancy probability of a voxel after one hit", kLikely);
+    v("prob_miss", prob_miss, "", "occupancy probability of a voxel after one pass", kUnlikely);
+    v("clamping_min", clamping_min, "", "lower bound on the occupancy probability", kUnlikely);
+    v("clamping_max", clamping_max, "", "upper bound on the occupancy probability", kLikely);
     v("occupancy_threshold", occupancy_threshold, "",
-      "occupancy from which a voxel counts as occupied in the .bt file", kBetween);
+      "voxels at or above this probability are occupied in the .bt file", kBetween);
   }
 };
 

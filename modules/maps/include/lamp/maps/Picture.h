@@ -14,14 +14,12 @@ struct PictureOptions {
   bool rejected_loops = true;
 
   void visit(OptionVisitor& v) {
-    v("size_px", size_px, "px", "longer side of the map within the picture", Range{100, 8000});
+    v("size_px", size_px, "px", "length of the picture's longer side", Range{100, 8000});
     v("finest_pixel_m", finest_pixel_m, "m",
-      "small maps are drawn smaller rather than with pixels below this size, which would tear "
-      "walls "
-      "into dots",
+      "minimum size of a pixel in metres; small maps give small pictures rather than dotted walls",
       kPositive);
-    v("tint", tint, "whether points are shaded in the colours of the robots that saw them");
-    v("rejected_loops", rejected_loops, "whether rejected loop closures are drawn");
+    v("tint", tint, "shade points in the colours of the robots that saw them");
+    v("rejected_loops", rejected_loops, "draw rejected loop closures");
   }
 };
 
