@@ -160,7 +160,10 @@ TEST(Gnc, PlanarGraphsStayPlanar) {
   WorldOptions options;
   options.planar = true;
   options.outliers = 10;
-  for (const Pose3& pose : Gnc().optimize(makeWorld(options).graph).world_T_base) {
+  const World world = makeWorld(options);
+  const OptimizationResult result = Gnc().optimize(world.graph);
+  ASSERT_EQ(result.world_T_base.size(), world.truth.size());
+  for (const Pose3& pose : result.world_T_base) {
     EXPECT_EQ(pose.translation().z(), 0.0);
     EXPECT_TRUE(pose.linear().col(2).isApprox(Eigen::Vector3d::UnitZ(), 1e-15));
   }

@@ -24,7 +24,9 @@ void expectNear(const Vector3d& a, const Vector3d& b, double tolerance) {
 TEST(Imu, FeelsGravityAtRest) {
   Vector6d tilted = Vector6d::Zero();
   tilted[4] = M_PI / 6;  // nose down
-  for (const auto& r : simulateImu(standing(1, poseFromYawPitchRoll(tilted)), exactOptions(), 1)) {
+  const auto readings = simulateImu(standing(1, poseFromYawPitchRoll(tilted)), exactOptions(), 1);
+  ASSERT_EQ(readings.size(), 101u);
+  for (const auto& r : readings) {
     expectNear(r.angular_velocity, Vector3d::Zero(), 1e-9);
     expectNear(r.specific_force, kGravity_m_s2 * Vector3d(-0.5, 0, std::sqrt(0.75)), 1e-9);
   }
@@ -43,16 +45,18 @@ TEST(Imu, FeelsTurningAndCentripetalForce) {
 
 TEST(Imu, FeelsSpeedingUp) {
   const auto truth = motion(2, [](double t) { return planarPose(0.5 * 3.0 * t * t, 0, 0); });
-  for (const auto& r : simulateImu(truth, exactOptions(), 1))
-    expectNear(r.specific_force, {3, 0, kGravity_m_s2}, 1e-3);
+  const auto readings = simulateImu(truth, exactOptions(), 1);
+  ASSERT_EQ(readings.size(), 201u);
+  for (const auto& r : readings) expectNear(r.specific_force, {3, 0, kGravity_m_s2}, 1e-3);
 }
 
 TEST(Imu, AccelerationIsSmoothOverACoarseTruth) {
   std::vector<StampedPose> samples;  // every 0.1 s, constant twist between
   for (int i = 0; i <= 20; ++i)
     samples.push_back({kBegin + 0.1 * i, planarPose(0.015 * i * i, 0, 0)});
-  for (const auto& r : simulateImu(TrajectoryInterpolator(samples), exactOptions(), 1))
-    expectNear(r.specific_force, {3, 0, kGravity_m_s2}, 1e-3);
+  const auto readings = simulateImu(TrajectoryInterpolator(samples), exactOptions(), 1);
+  ASSERT_EQ(readings.size(), 201u);
+  for (const auto& r : readings) expectNear(r.specific_force, {3, 0, kGravity_m_s2}, 1e-3);
 }
 
 TEST(Imu, NoiseAndBiasHaveTheirSizes) {

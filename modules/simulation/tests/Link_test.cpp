@@ -81,7 +81,9 @@ TEST(Link, ALostLinkQueuesAndThenSendsABatch) {
 TEST(Link, WhatNeverGotThroughArrivesWithTheRobots) {
   const Ground ground;
   const Link link({}, ground.caster, {-1000, 0, 0}, {});
-  const auto arrivals = link.arrivalTimes(everySecond(20), thereAndBack(10), kBegin + 100);
+  const auto stamps = everySecond(20);
+  const auto arrivals = link.arrivalTimes(stamps, thereAndBack(10), kBegin + 100);
+  ASSERT_EQ(arrivals.size(), stamps.size());
   for (const double arrival : arrivals) EXPECT_EQ(arrival, kBegin + 100);
 }
 

@@ -106,13 +106,16 @@ TEST(Route, TurnsBackAtADeadEndWithANewLeg) {
 }
 
 TEST(Route, DrivesForwardsWithinALeg) {
+  size_t bends = 0;
   for (uint64_t seed = 1; seed <= 20; ++seed)
     for (const Leg& leg : onlyRoute(ringLayout(), 333, seed))
       for (size_t i = 2; i < leg.points.size(); ++i) {
         const Eigen::Vector3d before = leg.points[i - 1].floor - leg.points[i - 2].floor;
         const Eigen::Vector3d after = leg.points[i].floor - leg.points[i - 1].floor;
         EXPECT_GT(before.dot(after), -0.9 * before.norm() * after.norm());
+        ++bends;
       }
+  EXPECT_GT(bends, 100u) << "there are some to look at";
 }
 
 TEST(Route, ExploresAllAndClosesLoops) {

@@ -271,11 +271,9 @@ TEST(Parameters, ThePageIsUpToDate) {
 TEST(Parameters, EveryStageIsListedAndDescribed) {
   registerAllClasses_lamp();
   const std::string list = listStages(), page = describeParameters();
-  for (const auto* base : {CLASS_ID(OdometrySource), CLASS_ID(CandidateGenerator),
-                           CLASS_ID(Prioritizer), CLASS_ID(InitialAligner), CLASS_ID(Refiner),
-                           CLASS_ID(Verifier), CLASS_ID(Optimizer), CLASS_ID(MapExporter)}) {
-    EXPECT_THAT(stageClasses(base), Not(IsEmpty())) << base->className;
-    for (const std::string& name : stageClasses(base)) {
+  for (const StageKind& kind : stageKinds()) {
+    EXPECT_THAT(stageClasses(kind.base), Not(IsEmpty())) << kind.name;
+    for (const std::string& name : stageClasses(kind.base)) {
       EXPECT_THAT(list, HasSubstr("  " + name + "\n"));
       EXPECT_THAT(page, HasSubstr("### [lamp::" + name + "]"));
     }
