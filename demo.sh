@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 scripts/install_dependencies.sh --build-only
-scripts/build.sh -DLAMP_BUILD_TESTS=OFF
+scripts/build.sh release -DLAMP_BUILD_TESTS=OFF
 
 out=demo-out
 if [[ -e $out ]]; then

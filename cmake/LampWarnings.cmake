@@ -6,6 +6,7 @@ if(LAMP_WARNINGS_AS_ERRORS)
   target_compile_options(lamp_warnings INTERFACE -Werror)
 endif()
 if(LAMP_SANITIZE)
-  add_compile_options(-fsanitize=${LAMP_SANITIZE} -fno-omit-frame-pointer)
+  # Undefined behaviour ends the program, as all else that is found does.
+  add_compile_options(-fsanitize=${LAMP_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${LAMP_SANITIZE})
 endif()

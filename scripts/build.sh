@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Configures and builds the preset `release`; arguments go to CMake's configuration.
+# Configures and builds one of CMakePresets.json: scripts/build.sh PRESET [CMake's arguments].
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+preset=${1:-release}
 launcher=()
 if command -v ccache >/dev/null; then
   launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi
-cmake --preset release "${launcher[@]}" "$@"
-cmake --build --preset release
+cmake --preset "$preset" "${launcher[@]}" "${@:2}"
+cmake --build --preset "$preset"

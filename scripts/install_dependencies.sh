@@ -4,6 +4,7 @@
 #   scripts/install_dependencies.sh               to build, run and test
 #   scripts/install_dependencies.sh --build-only  to build and run
 #   scripts/install_dependencies.sh --bench       to build, run, test and run the benchmarks
+#   scripts/install_dependencies.sh --fuzz        to build and run the fuzz targets
 set -euo pipefail
 
 # Of MRPT only the libraries in use: libmrpt-dev would pull in Qt, wxWidgets and ROS as well.
@@ -18,13 +19,15 @@ packages=(
 # PCL and OctoMap's tools read our files back in the tests.
 test_packages=(libgtest-dev libgmock-dev libpcl-dev octomap-tools)
 bench_packages=(libbenchmark-dev)
+fuzz_packages=(clang libclang-rt-dev)
 
 case "${1:-}" in
   "") packages+=("${test_packages[@]}") ;;
   --build-only) ;;
   --bench) packages+=("${test_packages[@]}" "${bench_packages[@]}") ;;
+  --fuzz) packages+=("${fuzz_packages[@]}") ;;
   *)
-    echo "usage: $0 [--build-only | --bench]" >&2
+    echo "usage: $0 [--build-only | --bench | --fuzz]" >&2
     exit 2
     ;;
 esac

@@ -28,6 +28,21 @@ std::string withoutComment(const std::string& line) {
   return line;
 }
 
+bool hasVariable(const std::string& value) {
+  const size_t at = std::min(value.find("${"), value.find("$env{"));
+  return at != std::string::npos && value.find('}', at) != std::string::npos;
+}
+
+/** Whether the line `key = value` reads back to this value, so that the effective ini gives the
+ * same run. Not so after some replacements of variables. */
+void requireReadable(const std::string& value, const std::string& where, Faults& faults) {
+  const bool cut = trimmed(withoutComment("= " + value).substr(1)) != value;
+  const bool goes_on = !value.empty() && value.back() == '\\';
+  if (cut || goes_on || hasVariable(value) || value.find('\n') != std::string::npos)
+    faults.add(where, "the value '" + value + "' cannot stand in an ini: it must be one line " +
+                          "without '//' after a space, '${...}', or '\\' at its end");
+}
+
 /** Reads one ini text line by line. */
 class IniParser {
  public:
@@ -65,7 +80,9 @@ class IniParser {
     const std::string key = trimmed(line.substr(0, equal));
     if (const Ini::Entry* first = ini_.find(section_)->find(key))
       return faults_.add(where, "key '" + key + "' is there twice, first at " + first->where);
-    ini_.set(section_, key, expanded(trimmed(line.substr(equal + 1)), where), where);
+    const std::string value = trimmed(expanded(trimmed(line.substr(equal + 1)), where));
+    requireReadable(value, where, faults_);
+    ini_.set(section_, key, value, where);
   }
 
   void parseDefine(const std::string& line, const std::string& where) {
@@ -172,8 +189,10 @@ void Ini::set(const std::string& assignment, Faults& faults) {
     faults.add("--set", "'" + assignment + "' is not of the form section.key=value");
     return;
   }
+  const std::string value = trimmed(assignment.substr(equal + 1));
+  requireReadable(value, "--set " + assignment, faults);
   set(trimmed(assignment.substr(0, dot)), trimmed(assignment.substr(dot + 1, equal - dot - 1)),
-      trimmed(assignment.substr(equal + 1)), "--set " + assignment);
+      value, "--set " + assignment);
 }
 
 std::vector<std::string> splitWords(const std::string& text, char separator) {

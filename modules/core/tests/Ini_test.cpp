@@ -129,6 +129,21 @@ TEST(Ini, ReportsUnknownVariables) {
                           HasSubstr("t.ini:5: ")));
 }
 
+TEST(Ini, AReplacementLeavesNoSpaceAtTheEnds) {
+  EXPECT_EQ(value(read("@define EMPTY\n[s]\nx = ${EMPTY} a ${EMPTY}\n"), "s", "x"), "a");
+}
+
+TEST(Ini, RefusesReplacementsThatNoIniCanHold) {
+  ::setenv("LAMP_INI_TEST", "one\ntwo", 1);
+  for (const char* line : {"x = a ${EMPTY}//b", "x = a\\${EMPTY}", "x = $${EMPTY}{EMPTY}",
+                           "x = ${EMPTY}$${EMPTY}env{HOME}", "x = $env{LAMP_INI_TEST}"})
+    EXPECT_THAT(faultsOf("@define EMPTY\n[s]\n" + std::string(line) + "\n"),
+                ElementsAre(HasSubstr("t.ini:3: the value '")))
+        << line;
+  EXPECT_THAT(faultsOf("@define EMPTY\n[s]\nx = http://a/b ${EMPTY}\ny = ${open\nz = a\\b $ c\n"),
+              IsEmpty());
+}
+
 TEST(Ini, ReportsDuplicatesWithBothPlaces) {
   EXPECT_THAT(faultsOf("[s]\nx = 1\nx = 2\n[t]\n[s]\nx = 3\n"),
               ElementsAre("t.ini:3: key 'x' is there twice, first at t.ini:2",
@@ -179,6 +194,15 @@ TEST(IniSet, ReportsWhatIsNoAssignment) {
   EXPECT_EQ(faults.list().size(), 7u);
   EXPECT_THAT(faults.list()[1], HasSubstr("'a.b' is not of the form section.key=value"));
   EXPECT_TRUE(ini.sections().empty());
+}
+
+TEST(IniSet, RefusesValuesThatNoIniCanHold) {
+  Ini ini;
+  Faults faults;
+  for (const char* text : {"s.a=x // y", "s.b=x\\", "s.c=${HOME}", "s.d=x\ny"})
+    ini.set(text, faults);
+  ASSERT_EQ(faults.list().size(), 4u);
+  EXPECT_THAT(faults.list()[0], HasSubstr("the value 'x // y' cannot stand in an ini"));
 }
 
 TEST(IniOptions, FillsAllKinds) {

@@ -1,6 +1,7 @@
 #include "lamp/input/ScanFromObservation.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "MrptPoses.h"
 #include "SensorReturns.h"
@@ -75,6 +76,8 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
   observation.getSensorPose(sensor_pose);
   const Pose3 base_T_sensor = poseFromMrpt(sensor_pose);
   const Eigen::Isometry3f transform = base_T_sensor.cast<float>();
+  if (!transform.matrix().allFinite())
+    throw std::runtime_error("its sensor pose is no number: the recording is damaged");
   const double max_range = std::min(options.max_range_m, returns->max_range_m);
 
   Scan scan;
@@ -86,7 +89,9 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
     const double range = point.cast<double>().norm();
     // Written so that a range that is not a number fails; zero is the mark of a missing return.
     if (!(range > 0 && range >= options.min_range_m && range <= max_range)) continue;
-    scan.points.push_back(transform * point);
+    const Eigen::Vector3f in_base = transform * point;
+    if (!in_base.allFinite()) continue;
+    scan.points.push_back(in_base);
     if (has_intensity) scan.intensity.push_back(returns->intensity[i]);
   }
   scan.sensor.assign(scan.points.size(), 0);

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationRotatingScan.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
+#include <cmath>
 #include <limits>
 
 #include "RecordingTools.h"
@@ -168,6 +169,27 @@ TEST(ScanFromObservation, RotatingLaserAgreesWithTheLaserItWasMadeFrom) {
   for (size_t i = 0; i < scan->size(); ++i) {
     EXPECT_LT((scan->points[i] - expected->points[i]).norm(), 0.006) << i;  // 1 cm resolution
   }
+}
+
+TEST(ScanFromObservation, ASensorPoseThatIsNoNumberIsAnError) {
+  // The last one is a number, but none that the float coordinates of points can hold.
+  for (const double x : {std::nan(""), std::numeric_limits<double>::infinity(), 1e60}) {
+    auto o = cloud(1, "lidar", 1);
+    o->sensorPose = mrpt::poses::CPose3D(x, 0, 0, 0, 0, 0);
+    EXPECT_THROW(scanFromObservation(*o, "lidar", {}), std::runtime_error) << x;
+  }
+}
+
+TEST(ScanFromObservation, PointsThatNoFloatCanHoldAreDropped) {
+  auto o = cloud(1, "lidar", 2);
+  o->sensorPose = mrpt::poses::CPose3D(3.3e38, 0, 0, 0, 0, 0);
+  auto points = mrpt::maps::CSimplePointsMap::Create();
+  points->insertPoint(1e38f, 0, 0);
+  points->insertPoint(1, 0, 0);
+  o->pointcloud = points;
+  ScanOptions options;
+  options.max_range_m = 1e39;
+  EXPECT_EQ(scanFromObservation(*o, "lidar", options)->size(), 1u);
 }
 
 TEST(ScanFromObservation, RotatingScanWithUnknownElevationsIsAnError) {

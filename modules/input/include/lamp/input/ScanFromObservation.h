@@ -33,8 +33,9 @@ bool isPlanarLaser(const mrpt::obs::CObservation& observation);
  * else as recorded; empty where there is none.
  *
  * \return none if the class is no lidar; a scan without points if it saw nothing.
- * \throws std::runtime_error if a cloud that is stored in a file of its own cannot be loaded, or if
- *  a CObservationRotatingScan has several rows but no model from which their elevation is known. */
+ * \throws std::runtime_error if a cloud that is stored in a file of its own cannot be loaded, if the
+ *  sensor pose is not finite, or if a CObservationRotatingScan has several rows but no model from
+ *  which their elevation is known. */
 std::optional<Scan> scanFromObservation(const mrpt::obs::CObservation& observation,
                                         const std::string& label, const ScanOptions& options);
 
