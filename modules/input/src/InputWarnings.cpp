@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lamp/core/Csv.h"
+
 namespace lamp {
 namespace {
 
@@ -44,6 +46,10 @@ void warnOfDrops(const LabelReport& label, const std::string& who,
   if (label.backwards > 0) {
     warnings.push_back(what + counted(label.backwards, "observation") +
                        " dropped whose stamp goes back in time");
+  }
+  if (label.ahead > 0) {
+    warnings.push_back(what + counted(label.ahead, "observation") +
+                       " dropped whose stamp lies ahead of all that was recorded after it");
   }
   if (label.unloadable > 0) {
     warnings.push_back(what + counted(label.unloadable, "observation") +
@@ -112,6 +118,11 @@ std::vector<std::string> robotWarnings(const RobotReport& robot, const RobotOpti
     return warnings;
   }
   for (const LabelReport& label : robot.labels) warnOfDrops(label, who, warnings);
+  for (const ClockStep& step : robot.clock_steps) {
+    warnings.push_back(who + "the clock was set back within the recording: from " +
+                       formatFixed(step.stamp, 3) + " on, all stamps are taken " +
+                       formatFixed(step.seconds, 3) + " s later than they are recorded");
+  }
   warnOfChoices(robot, options, who, warnings);
   warnOfMissing(robot, who, warnings);
   return warnings;

@@ -1,8 +1,7 @@
 #include "RecordingStream.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <stdexcept>
+#include <tuple>
 
 #include "ExternalStorage.h"
 
@@ -11,9 +10,9 @@ namespace lamp {
 RecordingStream::RecordingStream(const std::string& path, std::vector<std::string> named_by,
                                  RobotRegistry& registry)
     : path_(path),
-      named_by_(std::move(named_by)),
       external_folder_(externalStorageFolder(path)),
       registry_(registry),
+      naming_(path, std::move(named_by), registry.names()),
       reader_(path) {}
 
 std::optional<double> RecordingStream::nextStamp() {
@@ -31,15 +30,19 @@ void RecordingStream::readMore() {
     unpacker_.push(object);
   } else {
     unpacker_.finish();
-    sorter_.close();
     at_end_ = true;
   }
   while (const auto observation = unpacker_.pop()) accept(observation);
+  if (!at_end_) return;
+  for (auto& [robot, clock] : clocks_) clock.finish();
+  sorter_.close();
 }
 
 void RecordingStream::accept(const mrpt::obs::CObservation::Ptr& observation) {
   InputObservation input;
-  std::tie(input.robot, input.label) = robotAndLabel(observation->sensorLabel);
+  std::string robot;
+  std::tie(robot, input.label) = naming_(observation->sensorLabel);
+  input.robot = registry_.claim(robot, path_);
   input.stamp = mrpt::Clock::toDouble(observation->timestamp);
   input.observation = observation;
   LabelReport& label = registry_.label(input.robot, input.label, *observation);
@@ -47,31 +50,11 @@ void RecordingStream::accept(const mrpt::obs::CObservation::Ptr& observation) {
     ++label.left_out;
     return;
   }
-  if (!stampGrows({input.robot, input.label, label.class_name}, input.stamp, label)) return;
   if (!loadExternalData(*observation, external_folder_)) {
     ++label.unloadable;
     return;
   }
-  ++label.used;
-  sorter_.push(input);
-}
-
-std::pair<RobotId, std::string> RecordingStream::robotAndLabel(const std::string& sensor_label) {
-  const size_t slash = sensor_label.find('/');
-  const bool names_robot = slash != std::string::npos && slash > 0;
-  if (!names_robot) return {registry_.claim(unnamedRobot(sensor_label), path_), sensor_label};
-  const std::string robot = robotNameFromStem(sensor_label.substr(0, slash));
-  return {registry_.claim(robot, path_), sensor_label.substr(slash + 1)};
-}
-
-std::string RecordingStream::unnamedRobot(const std::string& sensor_label) const {
-  if (named_by_.size() > 1) {
-    throw std::runtime_error(path_ + ": given for several robots (" + named_by_[0] + ", " +
-                             named_by_[1] + "), but the sensor label '" + sensor_label +
-                             "' does not say whose it is; use labels ROBOT/SENSOR");
-  }
-  if (!named_by_.empty()) return named_by_.front();
-  return robotNameFromStem(std::filesystem::path(path_).stem().string());
+  clockOf(input.robot).take(input);
 }
 
 bool RecordingStream::chosen(RobotId robot, const LabelReport& label) {
@@ -87,19 +70,8 @@ bool RecordingStream::chosen(RobotId robot, const LabelReport& label) {
   return odometry_.emplace(robot, kind).first->second == kind;
 }
 
-bool RecordingStream::stampGrows(const LabelKey& key, double stamp, LabelReport& label) {
-  const auto [last, first_one] = last_stamp_.emplace(key, stamp);
-  if (first_one) return true;
-  if (stamp == last->second) {
-    ++label.repeated;
-    return false;
-  }
-  if (stamp < last->second) {
-    ++label.backwards;
-    return false;
-  }
-  last->second = stamp;
-  return true;
+RobotClock& RecordingStream::clockOf(RobotId robot) {
+  return clocks_.try_emplace(robot, robot, sorter_, registry_).first->second;
 }
 
 }  // namespace lamp

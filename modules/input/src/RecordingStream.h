@@ -3,12 +3,13 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "InputStream.h"
+#include "LabelNaming.h"
 #include "ObservationUnpacker.h"
+#include "RobotClock.h"
 #include "RobotRegistry.h"
 #include "TimeSorter.h"
 #include "lamp/input/RawlogReader.h"
@@ -29,24 +30,19 @@ class RecordingStream : public InputStream {
   std::optional<RecordingReport> report() const override;
 
  private:
-  /** Robot, label, class. */
-  using LabelKey = std::tuple<RobotId, std::string, std::string>;
-
   void readMore();
   void accept(const mrpt::obs::CObservation::Ptr& observation);
-  std::pair<RobotId, std::string> robotAndLabel(const std::string& sensor_label);
-  std::string unnamedRobot(const std::string& sensor_label) const;
   bool chosen(RobotId robot, const LabelReport& label);
-  bool stampGrows(const LabelKey& key, double stamp, LabelReport& label);
+  RobotClock& clockOf(RobotId robot);
 
   const std::string path_;
-  const std::vector<std::string> named_by_;
   const std::string external_folder_;
   RobotRegistry& registry_;
+  const LabelNaming naming_;
   RawlogReader reader_;
   ObservationUnpacker unpacker_;
   TimeSorter sorter_;
-  std::map<LabelKey, double> last_stamp_;
+  std::map<RobotId, RobotClock> clocks_;
   /** Label and class of the odometry that each robot uses. */
   std::map<RobotId, std::pair<std::string, std::string>> odometry_;
   bool at_end_ = false;

@@ -4,8 +4,8 @@ namespace lamp {
 
 void RobotOptions::visit(OptionVisitor& v) {
   v("rawlog", rawlog,
-    "recording of this robot; empty where its observations are found by the label's part before "
-    "the first slash");
+    "recording of this robot, whatever robot its labels name; empty where its observations are "
+    "found by the label's part before the first slash");
   v("key", key, "the robot's letter in 64-bit symbols; empty takes the next free one");
   v("start_pose", start_pose, 6, "m, deg",
     "pose of the base in the world at the first key node, [x y z yaw pitch roll]; empty if "

@@ -50,10 +50,15 @@ RobotId RobotRegistry::claim(const std::string& name, const std::string& path) {
   if (owner.empty()) owner = path;
   if (owner != path) {
     throw std::runtime_error("robot '" + name + "' is in two rawlogs, " + owner + " and " + path +
-                             "; give each robot its name with [robot.NAME] rawlog = FILE, or with "
-                             "sensor labels NAME/SENSOR");
+                             "; give each recording its robot with [robot.NAME] rawlog = FILE");
   }
   return *robot;
+}
+
+std::set<std::string> RobotRegistry::names() const {
+  std::set<std::string> names;
+  for (const RobotOptions& robot : options_) names.insert(robot.name);
+  return names;
 }
 
 LabelReport& RobotRegistry::label(RobotId robot, const std::string& label,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ class RobotRegistry {
   /** The counts of one class under one label. */
   LabelReport& label(RobotId robot, const std::string& label,
                      const mrpt::obs::CObservation& observation);
+  void addClockStep(RobotId robot, const ClockStep& step) {
+    reports_.at(robot.value).clock_steps.push_back(step);
+  }
+  /** Names of all robots of the ini. */
+  std::set<std::string> names() const;
   const std::vector<RobotReport>& reports() const { return reports_; }
 
  private:

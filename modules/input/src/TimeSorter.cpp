@@ -4,19 +4,22 @@
 
 namespace lamp {
 
-void TimeSorter::push(const InputObservation& observation) {
-  newest_ = pushed_ == 0 ? observation.stamp : std::max(newest_, observation.stamp);
-  held_.push({observation, pushed_++});
+TimeSorter::Key TimeSorter::push(const InputObservation& observation) {
+  const Key key(observation.stamp, pushed_++);
+  held_.emplace(key, observation);
+  recent_.add(observation.stamp);
+  time_ = time_ ? std::max(*time_, recent_.value()) : recent_.value();
+  return key;
 }
 
 bool TimeSorter::ready() const {
   if (held_.empty()) return false;
-  return closed_ || held_.size() > kMaxHeld || held_.top().observation.stamp + kWindow < newest_;
+  return closed_ || held_.size() > kMaxHeld || front().stamp + kWindow < *time_;
 }
 
 InputObservation TimeSorter::pop() {
-  InputObservation first = held_.top().observation;
-  held_.pop();
+  InputObservation first = front();
+  held_.erase(held_.begin());
   return first;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "RecordingTools.h"
 #include "lamp/input/OdometryFromObservation.h"
 #include "lamp/input/ScanFromObservation.h"
@@ -10,6 +12,7 @@ namespace lamp {
 namespace {
 
 using namespace test;
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -56,9 +59,11 @@ class RawlogSourceTest : public testing::Test {
 };
 
 TEST_F(RawlogSourceTest, LabelsNameRobots) {
-  const auto path = write("team.rawlog", {wheels(1, "r1/odo"), cloud(2, "r2/lidar/top")});
+  const auto path = write("team.rawlog", {wheels(1, "r1/odo"), cloud(2, "r1/lidar/top"),
+                                          wheels(3, "r2/odo"), cloud(4, "r2/lidar/top")});
   RawlogSource source({path}, {}, table_);
-  EXPECT_THAT(drain(source), ElementsAre("r1:odo@10", "r2:lidar/top@20"));
+  EXPECT_THAT(drain(source),
+              ElementsAre("r1:odo@10", "r1:lidar/top@20", "r2:odo@30", "r2:lidar/top@40"));
   EXPECT_EQ(source.progress(), 1.0);
   EXPECT_FALSE(source.next());
 }
@@ -73,7 +78,8 @@ TEST_F(RawlogSourceTest, IniThenStemNameTheRest) {
 TEST_F(RawlogSourceTest, RobotsOfTheIniComeFirstWithTheirLetters) {
   auto husky = robot("husky");
   husky.key = "h";
-  const auto path = write("x.rawlog", {wheels(1, "other/odo"), wheels(2, "husky/odo")});
+  const auto path =
+      write("x.rawlog", {wheels(1, "other/odo"), cloud(1, "other/lidar"), wheels(2, "husky/odo")});
   RawlogSource source({path}, {husky, robot("absent")}, table_);
   drain(source);
   ASSERT_EQ(table_.size(), 3u);
@@ -85,10 +91,10 @@ TEST_F(RawlogSourceTest, RobotsOfTheIniComeFirstWithTheirLetters) {
 }
 
 TEST_F(RawlogSourceTest, ClashesAreErrors) {
-  const auto a = write("a.rawlog", {wheels(1, "husky/odo")});
-  const auto b = write("b.rawlog", {wheels(2, "husky/odo")});
+  const auto a = write("a.rawlog", {wheels(1, "husky/odo"), cloud(1, "husky/lidar")});
+  const auto b = write("b.rawlog", {wheels(2, "husky/odo"), cloud(2, "husky/lidar")});
   const std::string error = errorOf({a, b});
-  EXPECT_THAT(error, testing::AllOf(HasSubstr("robot 'husky'"), HasSubstr(a), HasSubstr(b)));
+  EXPECT_THAT(error, AllOf(HasSubstr("robot 'husky'"), HasSubstr(a), HasSubstr(b)));
 }
 
 TEST_F(RawlogSourceTest, WrongAndRepeatedKeysAreErrors) {
@@ -107,6 +113,45 @@ TEST_F(RawlogSourceTest, OneFileOfTwoRobotsNeedsLabels) {
   table_ = {};
   const auto bad = write("bad.rawlog", {wheels(1, "odo")});
   EXPECT_THAT(errorOf({}, {robot("one", bad), robot("two", bad)}), HasSubstr("label 'odo'"));
+}
+
+TEST_F(RawlogSourceTest, SlashesInSensorNamesAreNoRobots) {
+  const auto path =
+      write("a.rawlog", {wheels(1, "odom"), cloud(2, "velodyne/points"), cloud(3, "imu/data")});
+  {
+    RawlogSource source({path}, {}, table_);
+    EXPECT_THAT(drain(source), ElementsAre("a:odom@10", "a:velodyne/points@20", "a:imu/data@30"));
+  }
+  table_ = {};
+  RawlogSource source({}, {robot("husky", path)}, table_);
+  EXPECT_THAT(drain(source),
+              ElementsAre("husky:odom@10", "husky:velodyne/points@20", "husky:imu/data@30"));
+}
+
+TEST_F(RawlogSourceTest, SensorsOutsideTheOneRobotsLabelsAreItsOwn) {
+  const auto path =
+      write("a.rawlog", {wheels(1, "husky/odom"), cloud(2, "husky/top"), cloud(3, "rear/points")});
+  RawlogSource source({path}, {}, table_);
+  EXPECT_THAT(drain(source), ElementsAre("husky:odom@10", "husky:top@20", "husky:rear/points@30"));
+}
+
+TEST_F(RawlogSourceTest, TheInisNameWinsOverTheLabels) {
+  const auto a = write("a.rawlog", {wheels(1, "husky/odom"), cloud(2, "husky/top")});
+  const auto b = write("b.rawlog", {wheels(3, "husky/odom"), cloud(4, "husky/top")});
+  RawlogSource source({}, {robot("monday", a), robot("tuesday", b)}, table_);
+  EXPECT_THAT(drain(source),
+              ElementsAre("monday:odom@10", "monday:top@20", "tuesday:odom@30", "tuesday:top@40"));
+  EXPECT_THAT(source.warnings(), IsEmpty());
+  EXPECT_EQ(table_.size(), 2u);
+}
+
+TEST_F(RawlogSourceTest, ARecordingOfSeveralRobotsIsNotGivenToOne) {
+  const auto path = write("team.rawlog", {wheels(1, "r1/odo"), cloud(2, "r1/lidar"),
+                                          wheels(3, "r2/odo"), cloud(4, "r2/lidar")});
+  EXPECT_THAT(errorOf({}, {robot("scout", path)}),
+              AllOf(HasSubstr("[robot.scout] rawlog"), HasSubstr("(r1, r2)")));
+  table_ = {};
+  EXPECT_EQ(errorOf({}, {robot("r1", path)}), "no error") << "one of them is named";
 }
 
 TEST_F(RawlogSourceTest, NoRawlogAndMissingFilesAreErrors) {
@@ -139,6 +184,78 @@ TEST_F(RawlogSourceTest, DropsRepeatedAndBackwardStamps) {
   EXPECT_EQ(report.backwards, 1u);
   EXPECT_THAT(source.warnings(), Contains(HasSubstr("repeats the one before")));
   EXPECT_THAT(source.warnings(), Contains(HasSubstr("goes back in time")));
+}
+
+/** Odometry and a lidar, ten of each a second. */
+Objects drive(double begin, double end) {
+  Objects objects;
+  for (int i = 0; begin + 0.1 * i < end - 0.01; ++i) {
+    objects.push_back(wheels(begin + 0.1 * i, "o"));
+    objects.push_back(cloud(begin + 0.1 * i + 0.03, "l", 1));
+  }
+  return objects;
+}
+
+Objects joined(Objects first, const Objects& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+TEST_F(RawlogSourceTest, OneStampInTheFutureCostsOneObservation) {
+  for (const double ahead : {0.5, 5.0, 86400.0})
+    for (const size_t at : {0, 1, 30, 41}) {
+      Objects objects = drive(100, 104);
+      auto& stamp = std::dynamic_pointer_cast<mrpt::obs::CObservation>(objects.at(at))->timestamp;
+      stamp = mrpt::Clock::fromDouble(mrpt::Clock::toDouble(stamp) + ahead);
+      table_ = {};
+      RawlogSource source({write("a.rawlog", objects)}, {}, table_);
+      const auto seen = drain(source);
+      EXPECT_EQ(seen.size(), objects.size() - 1) << "observation " << at << ", ahead by " << ahead;
+      EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end(), [](const auto& a, const auto& b) {
+        return a.substr(a.find('@')) < b.substr(b.find('@'));
+      }));
+      EXPECT_THAT(source.warnings(),
+                  ElementsAre(AllOf(HasSubstr("1 observation dropped"), HasSubstr("lies ahead"))));
+    }
+}
+
+TEST_F(RawlogSourceTest, AClockThatIsSetBackGoesOn) {
+  for (const double back : {3.0, 3600.0}) {
+    const Objects objects = joined(drive(10000, 10004), drive(10004 - back, 10008 - back));
+    table_ = {};
+    RawlogSource source({write("a.rawlog", objects)}, {}, table_);
+    size_t count = 0;
+    double last = 0;
+    while (const auto o = source.next()) {
+      EXPECT_GE(o->stamp, last);
+      EXPECT_EQ(mrpt::Clock::toDouble(o->observation->timestamp), o->stamp);
+      last = o->stamp;
+      ++count;
+    }
+    EXPECT_EQ(count, objects.size());
+    EXPECT_NEAR(last, 10007.93, 0.1);
+    EXPECT_THAT(source.warnings(), ElementsAre(HasSubstr("the clock was set back")));
+  }
+}
+
+TEST_F(RawlogSourceTest, ARecordingThatRepeatsItselfIsNoClockSetBack) {
+  const Objects once = drive(100, 104);
+  RawlogSource source({write("a.rawlog", joined(once, once))}, {}, table_);
+  EXPECT_EQ(drain(source).size(), once.size());
+  EXPECT_THAT(source.warnings(), Contains(HasSubstr("goes back in time")));
+}
+
+TEST_F(RawlogSourceTest, OneSensorThatFallsBehindDoesNotMoveTheOthers) {
+  Objects objects = drive(100, 104);
+  for (const auto& object : drive(104, 108)) {
+    auto& o = *std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
+    if (o.sensorLabel == "l")
+      o.timestamp = mrpt::Clock::fromDouble(mrpt::Clock::toDouble(o.timestamp) - 60);
+    objects.push_back(object);
+  }
+  RawlogSource source({write("a.rawlog", objects)}, {}, table_);
+  EXPECT_EQ(drain(source).size(), 40u + 80u);
+  EXPECT_THAT(source.warnings(), ElementsAre(HasSubstr("goes back in time")));
 }
 
 TEST_F(RawlogSourceTest, OdometryLabelChooses) {

@@ -18,8 +18,15 @@ struct LabelReport {
   size_t used = 0;
   size_t repeated = 0;    ///< dropped: the stamp of the one before
   size_t backwards = 0;   ///< dropped: stamp before the one before
+  size_t ahead = 0;       ///< dropped: stamp ahead of what is recorded around it
   size_t left_out = 0;    ///< dropped: the options choose other odometry or lidars
   size_t unloadable = 0;  ///< dropped: the file with its data cannot be loaded
+};
+
+/** A robot's clock was set back within a recording. */
+struct ClockStep {
+  double stamp = 0;    ///< seconds, UTC, of the first observation after it, moved on
+  double seconds = 0;  ///< that were added to its stamp and all that follow
 };
 
 struct RobotReport {
@@ -27,6 +34,7 @@ struct RobotReport {
   std::string name;
   std::string path;                 ///< the rawlog its observations come from; empty if none came
   std::vector<LabelReport> labels;  ///< in order of appearance
+  std::vector<ClockStep> clock_steps;
 };
 
 struct RecordingReport {

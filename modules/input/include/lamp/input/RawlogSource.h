@@ -15,10 +15,10 @@ class RobotRegistry;
 
 /** Observations of one or several rawlogs, merged in time order.
  *
- * The robot of an observation is its label's part before the first slash; else the one whose
- * options name the rawlog; else the file's stem. Observations of one file may be out of order by up
- * to a second and are sorted. Within one label and class, stamps must grow: others are dropped and
- * counted.
+ * The robot of an observation is the one whose options name the rawlog; else its label's part
+ * before the first slash, if that is a robot's; else the file's stem. Observations of one file may
+ * be out of order by up to a second and are sorted. Within one label and class, stamps must grow:
+ * what does not fit is dropped and counted, and a clock that was set back is moved on.
  */
 class RawlogSource : public ObservationSource {
  public:
