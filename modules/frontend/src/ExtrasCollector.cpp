@@ -44,7 +44,8 @@ void ExtrasCollector::observe(const InputObservation& observation) {
 void ExtrasCollector::advanceTo(double stamp, OdometrySource& odometry) {
   const auto stampOf = [](const auto& reading) { return reading.stamp; };
   const auto carry = [&](const auto& reading) {
-    if (odometry.covers(reading.stamp)) place(moved(reading, odometry.poseAt(reading.stamp)));
+    if (odometry.covers(reading.stamp) && odometry.knows(reading.stamp))
+      place(moved(reading, odometry.poseAt(reading.stamp)));
   };
   while (!waiting_.empty() && std::visit(stampOf, waiting_.front()) <= stamp) {
     std::visit(carry, waiting_.front());

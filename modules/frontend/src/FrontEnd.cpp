@@ -1,8 +1,12 @@
 #include "lamp/frontend/FrontEnd.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "StandstillCheck.h"
+#include "lamp/core/Csv.h"
 
 namespace lamp {
 
@@ -12,6 +16,17 @@ namespace {
 constexpr size_t kMaxWaitingScans = 200;
 /** Behind the last odometry reading a robot is taken to stand still, but not for longer. */
 constexpr double kMaxExtrapolationS = 0.5;
+/** While odometry stands, scans are looked at this often. */
+constexpr double kStandstillLookS = 1.0;
+
+/** Odometry that goes on behind a gap has counted on over it, most likely. */
+constexpr double kGapMPerS = 0.05, kGapRadPerS = 0.25 * M_PI / 180.0;
+/** A robot whose odometry has failed turns like this, about. */
+constexpr double kFailedRadPerS = 10.0 * M_PI / 180.0;
+
+/** The start pose, or where there is none the odometry's frame, may deviate this much from upright:
+ * a unit that says more is mounted otherwise than the recording says. */
+constexpr double kStartTiltRad = 15.0 * M_PI / 180.0, kFrameTiltRad = 45.0 * M_PI / 180.0;
 
 void append(const Scan& scan, const Pose3& target_T_scan, Scan& target) {
   const auto first_sensor = static_cast<uint8_t>(target.sensors.size());
@@ -74,7 +89,10 @@ FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
       prior_(std::move(prior)),
       assembler_(makeAssembler(options)),
       voxel_filter_(options.voxel),
+      standstill_(std::make_unique<StandstillCheck>(options.keyed ? 0 : kStandstillLookS)),
       extras_(options.gravity) {}
+
+FrontEnd::~FrontEnd() = default;
 
 std::vector<KeyNodePacket> FrontEnd::observe(const InputObservation& observation) {
   odometry_->observe(observation);
@@ -91,8 +109,8 @@ std::vector<KeyNodePacket> FrontEnd::advanceTo(double stamp) {
 void FrontEnd::enqueue(ScanParts scan) {
   ++counts_.scans;
   if (waiting_.size() == kMaxWaitingScans) {
+    dropWithoutOdometry(waiting_.front().stamp);
     waiting_.pop_front();
-    ++counts_.without_odometry;
   }
   waiting_.push_back(std::move(scan));
 }
@@ -111,7 +129,7 @@ std::vector<KeyNodePacket> FrontEnd::finish() {
   std::vector<KeyNodePacket> packets;
   for (const ScanParts& parts : waiting_) {
     if (!odometry_->covers(parts.stamp - kMaxExtrapolationS))
-      ++counts_.without_odometry;
+      dropWithoutOdometry(parts.stamp);
     else if (auto packet = processScan(parts))
       packets.push_back(std::move(*packet));
   }
@@ -127,7 +145,12 @@ RobotEnd FrontEnd::end() {
 
 std::optional<KeyNodePacket> FrontEnd::processScan(const ScanParts& parts) {
   extras_.advanceTo(parts.stamp, *odometry_);
-  const Pose3 odom_T_base = odometry_->poseAt(parts.stamp);
+  for (const InputObservation& part : parts.observations)
+    planar_lidar_ = planar_lidar_ && isPlanarLaser(*part.observation);
+  const Pose3 odom_T_base = odometryPose(parts.stamp);
+  const bool is_placed = placed(parts, odom_T_base);
+  last_stamp_ = parts.stamp;
+  if (!is_placed) return std::nullopt;
   if (last_scan_pose_) path_since_key_.add(last_scan_pose_->inverse() * odom_T_base);
   last_scan_pose_ = odom_T_base;
 
@@ -140,30 +163,73 @@ std::optional<KeyNodePacket> FrontEnd::processScan(const ScanParts& parts) {
   return std::nullopt;
 }
 
+/** Whether odometry knows where a scan was taken. */
+bool FrontEnd::placed(const ScanParts& parts, const Pose3& odom_T_base) {
+  if (!odometry_->knows(parts.stamp)) {
+    dropWithoutOdometry(parts.stamp);
+    leaveOut(last_stamp_, parts.stamp, kGapMPerS, kGapRadPerS);
+    return false;
+  }
+  const bool contradicted = standstill_->contradicts(parts.stamp, odom_T_base,
+                                                     [&] { return merged(parts, odom_T_base); });
+  if (!contradicted) return true;
+  ++counts_.contradicted;
+  double begin = last_stamp_;
+  for (; !passed_scans_.empty() && passed_scans_.back().stamp >= standstill_->begin();
+       passed_scans_.pop_back(), ++counts_.contradicted)
+    begin = standstill_->begin();
+  leaveOut(begin, parts.stamp, standstill_->speed(), kFailedRadPerS);
+  return false;
+}
+
+void FrontEnd::dropWithoutOdometry(double stamp) {
+  if (counts_.without_odometry++ == 0) first_without_odometry_ = stamp;
+}
+
+/** Nobody knows how the robot moved between two stamps. */
+void FrontEnd::leaveOut(double begin, double end, double sigma_m_per_s, double sigma_rad_per_s) {
+  extras_.take(Pose3::Identity());  // carried to here by what is wrong
+  if (!last_key_) return;
+  unmeasured_.sigma_m += sigma_m_per_s * (end - begin);
+  unmeasured_.sigma_rad += sigma_rad_per_s * (end - begin);
+}
+
+/** Of a robot in the plane without what rounding, or a height of the odometry's frame, adds. */
+Pose3 FrontEnd::odometryPose(double stamp) {
+  const Pose3 pose = odometry_->poseAt(stamp);
+  if (!first_pose_) first_pose_ = pose;
+  return planar() ? Pose3(*first_pose_ * projectToPlane(first_pose_->inverse() * pose)) : pose;
+}
+
 /** Paper II-B: a new key node when the robot has moved or turned enough. */
 bool FrontEnd::isKeyNode(const Pose3& odom_T_base) const {
-  if (!last_key_ || options_.keyed) return true;
+  if (!last_key_ || options_.keyed || unmeasured_.sigma_m > 0) return true;
   const Pose3 motion = last_key_->pose.inverse() * odom_T_base;
   return motion.translation().norm() >= options_.key_node_distance_m ||
          rotationAngle(motion) * 180.0 / M_PI >= options_.key_node_angle_deg;
 }
 
-/** All parts in the base frame at the scan's stamp, filtered unless they were already. */
+/** Filtered unless it was already. */
 Scan FrontEnd::keyedScan(const ScanParts& parts, const Pose3& odom_T_base) {
+  Scan scan = merged(parts, odom_T_base);
+  return options_.keyed ? scan : voxel_filter_.filter(scan);
+}
+
+/** All parts in the base frame at the scan's stamp. */
+Scan FrontEnd::merged(const ScanParts& parts, const Pose3& odom_T_base) {
   Scan merged;
   for (const InputObservation& part : parts.observations) {
     const bool same_time = part.stamp == parts.stamp;
-    appendScan(part,
-               same_time ? Pose3::Identity()
-                         : Pose3(odom_T_base.inverse() * odometry_->poseAt(part.stamp)),
-               merged);
+    appendScan(
+        part,
+        same_time ? Pose3::Identity() : Pose3(odom_T_base.inverse() * odometryPose(part.stamp)),
+        merged);
   }
-  return options_.keyed ? merged : voxel_filter_.filter(merged);
+  return merged;
 }
 
 void FrontEnd::appendScan(const InputObservation& observation, const Pose3& base_T_scan,
                           Scan& merged) {
-  planar_lidar_ = planar_lidar_ && isPlanarLaser(*observation.observation);
   try {
     const auto scan =
         scanFromObservation(*observation.observation, observation.label, options_.scan);
@@ -173,28 +239,51 @@ void FrontEnd::appendScan(const InputObservation& observation, const Pose3& base
   }
 }
 
+/** An inertial unit that contradicts the start pose is mounted otherwise than the recording says.
+ */
+bool FrontEnd::believes(const GravityReading& gravity, const Pose3& odom_T_base) {
+  if (gravity_believed_) return *gravity_believed_;
+  const Pose3 world_T_base = world_T_odom_ ? *world_T_odom_ * odom_T_base : odom_T_base;
+  const Eigen::Vector3d up = world_T_base.linear() * gravity.base_up;
+  gravity_deviation_ = std::acos(std::clamp(up.z(), -1.0, 1.0));
+  double most = kFrameTiltRad;
+  if (prior_)
+    most = std::max(kStartTiltRad,
+                    3.0 * std::sqrt(prior_->covariance.diagonal().segment<2>(3).maxCoeff()));
+  gravity_believed_ = gravity_deviation_ <= most;
+  return *gravity_believed_;
+}
+
 KeyNodePacket FrontEnd::makePacket(double stamp, const Pose3& odom_T_base, Scan scan) {
   KeyNodePacket packet;
   packet.id = {robot_, static_cast<uint32_t>(counts_.key_nodes++)};
   packet.stamp = stamp;
   packet.odom_T_base = odom_T_base;
-  packet.planar = planar_lidar_ && odometry_->planar();
+  packet.planar = planar();
   packet.scan = std::make_shared<const Scan>(std::move(scan));
   packet.passed_scans = std::move(passed_scans_);
   passed_scans_.clear();
+  if (!last_key_ && prior_) world_T_odom_ = prior_->world_T_base * odom_T_base.inverse();
   packet.extras = extras_.take(odom_T_base);
+  if (packet.extras.gravity && !believes(*packet.extras.gravity, odom_T_base))
+    packet.extras.gravity.reset();
   if (last_key_)
     packet.odometry = {last_key_->pose.inverse() * odom_T_base, motionCovariance(stamp)};
   else
     packet.prior = prior_;
   last_key_ = StampedPose{stamp, odom_T_base};
+  odometry_->keepFrom(stamp);
   path_since_key_ = {};
+  unmeasured_ = {};
   return packet;
 }
 
 Matrix6d FrontEnd::motionCovariance(double stamp) {
-  if (const auto recorded = odometry_->covarianceBetween(last_key_->stamp, stamp)) return *recorded;
-  return odometryCovariance(path_since_key_, options_.motion);
+  Matrix6d covariance = odometry_->doubtBetween(last_key_->stamp, stamp);
+  covariance.diagonal().head<3>().array() += std::pow(unmeasured_.sigma_m, 2);
+  covariance.diagonal().tail<3>().array() += std::pow(std::min(M_PI, unmeasured_.sigma_rad), 2);
+  const auto recorded = odometry_->covarianceBetween(last_key_->stamp, stamp);
+  return covariance + (recorded ? *recorded : odometryCovariance(path_since_key_, options_.motion));
 }
 
 std::vector<std::string> FrontEnd::warnings() const {
@@ -203,7 +292,18 @@ std::vector<std::string> FrontEnd::warnings() const {
   if (counts_.without_odometry > 0)
     result.push_back(std::to_string(counts_.without_odometry) + " of " +
                      std::to_string(counts_.scans) +
-                     " scans were dropped: no odometry covers them");
+                     " scans were dropped: no odometry covers them, the first of them at " +
+                     formatFixed(first_without_odometry_, 3) +
+                     "; it begins later, ends earlier, or has gaps in which the robot moved");
+  if (counts_.contradicted > 0)
+    result.push_back(std::to_string(counts_.contradicted) +
+                     " scans were dropped: they show motion while odometry says that the robot "
+                     "stands; look for an encoder or a driver that failed");
+  if (gravity_believed_ && !*gravity_believed_)
+    result.push_back("the inertial unit is not used: what it says is up lies " +
+                     std::to_string(std::lround(gravity_deviation_ * 180.0 / M_PI)) +
+                     " deg from that of " + (prior_ ? "the start pose" : "the odometry's frame") +
+                     "; check how the recording says it is mounted (sensorPose)");
   if (counts_.unreadable_scans > 0)
     result.push_back(std::to_string(counts_.unreadable_scans) +
                      " scans could not be read, the first: " + first_unreadable_);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <random>
 
 #include "TestObservations.h"
@@ -12,6 +15,7 @@ namespace lamp {
 namespace {
 
 using namespace test;
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -302,6 +306,120 @@ TEST(FrontEnd, UsesTheRecordedCovarianceWhereItGrows) {
   EXPECT_LT((drive.packets[1].odometry->covariance - expected).norm(), 1e-5 * expected.norm());
 }
 
+double sigmaM(const KeyNodePacket& packet) {
+  return std::sqrt(packet.odometry->covariance(0, 0));
+}
+
+TEST(FrontEnd, DropsScansBeforeOdometryBeginsAndWithinItsGaps) {
+  Drive drive;
+  for (int i = 0; i < 600; ++i) {
+    const double t = 0.1 * i;
+    if (t > 10 && (t < 30 || t > 45)) drive.observe(wheels(kStart + t, t));
+    drive.observe(cloud(kStart + t + 0.01, somePoints()));
+  }
+  drive.finish();
+  size_t before = 0, within = 0;
+  for (const double stamp : drive.stamps()) {
+    before += stamp < kStart + 9.5 ? 1 : 0;
+    within += stamp > kStart + 30.6 && stamp < kStart + 44.4 ? 1 : 0;
+  }
+  EXPECT_EQ(before, 0u);
+  EXPECT_EQ(within, 0u);
+  EXPECT_NEAR(static_cast<double>(drive.front_end.counts().without_odometry), 95 + 140, 5);
+  for (size_t k = 1; k < drive.packets.size(); ++k) {
+    const bool over_gap =
+        drive.packets[k - 1].stamp < kStart + 31 && drive.packets[k].stamp > kStart + 44;
+    EXPECT_EQ(sigmaM(drive.packets[k]) > 0.5, over_gap) << drive.packets[k].stamp - kStart;
+  }
+  EXPECT_THAT(drive.front_end.warnings(), ElementsAre(HasSubstr("has gaps")));
+}
+
+/** 20 s at 0.5 m/s with five scans a second, in which odometry says x(t).
+ *  \param moves whether the robot does what it says while it drives. */
+template <class Says>
+void driveInHall(Drive& drive, Says says, double seconds, bool moves) {
+  for (int i = 0; 0.2 * i < seconds; ++i) {
+    const double t = 0.2 * i;
+    drive.observe(wheels(kStart + t, says(t)));
+    drive.observe(cloud(kStart + t, hallSeenFrom(moves ? 0.5 * t : says(t), 0)));
+  }
+  drive.finish();
+}
+
+TEST(FrontEnd, LeavesOutWhatTheLidarSeesWhileOdometryHasFailed) {
+  Drive drive;  // stands from 8 to 20 s only for odometry, which then goes on
+  driveInHall(
+      drive, [](double t) { return t < 8    ? 0.5 * t
+                                   : t < 20 ? 4.0
+                                            : 0.5 * (t - 12); }, 26, true);
+  EXPECT_GT(drive.front_end.counts().contradicted, 50u);
+  EXPECT_THAT(drive.front_end.warnings(), ElementsAre(HasSubstr("scans were dropped: they show")));
+  for (const double stamp : drive.stamps())
+    EXPECT_FALSE(stamp > kStart + 8.3 && stamp < kStart + 19.9) << stamp - kStart;
+  const auto first = std::find_if(drive.packets.begin(), drive.packets.end(),
+                                  [](const auto& packet) { return packet.stamp > kStart + 19; });
+  ASSERT_NE(first, drive.packets.end());
+  EXPECT_GT(sigmaM(*first), 3.0) << "it moved 6 m that nobody measured";
+  EXPECT_LT(sigmaM(*std::next(first)), 0.1);
+}
+
+TEST(FrontEnd, BelievesOdometryWhereTheRobotReallyStands) {
+  Drive drive;
+  driveInHall(
+      drive, [](double t) { return t < 8    ? 0.5 * t
+                                   : t < 20 ? 4.0
+                                            : 0.5 * (t - 12); }, 26, false);
+  EXPECT_EQ(drive.front_end.counts().contradicted, 0u);
+  EXPECT_THAT(drive.front_end.warnings(), IsEmpty());
+}
+
+TEST(FrontEnd, PeopleWhoPassAStandingRobotDoNotMoveIt) {
+  Drive drive;
+  for (int i = 0; i < 100; ++i) {
+    auto points = hallSeenFrom(0, 0);
+    for (size_t k = 0; k < points.size(); ++k)  // a third of the view, nearer from scan to scan
+      if (k % 360 < 120) points[k] *= 0.3f + 0.006f * static_cast<float>(i);
+    drive.observe(wheels(kStart + 0.2 * i, 0));
+    drive.observe(cloud(kStart + 0.2 * i, points));
+  }
+  drive.finish();
+  EXPECT_EQ(drive.front_end.counts().contradicted, 0u);
+}
+
+/** Specific force of a robot at rest, as a unit tells it that is mounted with this roll. */
+void restWithImu(Drive& drive, double roll_deg) {
+  for (int i = 0; i < 200; ++i) {
+    auto imu = mrpt::obs::CObservationIMU::Create();
+    for (const auto field :
+         {mrpt::obs::IMU_X_ACC, mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ})
+      imu->set(field, 0);
+    imu->set(mrpt::obs::IMU_Y_ACC, 9.81 * std::sin(roll_deg * kDegree));
+    imu->set(mrpt::obs::IMU_Z_ACC, 9.81 * std::cos(roll_deg * kDegree));
+    drive.observe(wrapped(kStart + 0.02 * i, "imu", imu));
+    drive.observe(wheels(kStart + 0.02 * i, 0));
+  }
+  drive.observe(cloud(kStart + 3.9, somePoints()));
+  drive.observe(wheels(kStart + 4, 0));
+  drive.finish();
+}
+
+TEST(FrontEnd, AnInertialUnitThatContradictsTheStartPoseIsNotBelieved) {
+  StartPrior prior;
+  prior.covariance = 0.002 * Matrix6d::Identity();
+  for (const double roll : {0.0, 5.0, 25.0, 90.0, 180.0}) {
+    Drive drive({}, prior);
+    restWithImu(drive, roll);
+    ASSERT_EQ(drive.packets.size(), 1u);
+    EXPECT_EQ(drive.packets[0].extras.gravity.has_value(), roll < 15) << roll;
+    if (roll > 15)
+      EXPECT_THAT(drive.front_end.warnings(),
+                  ElementsAre(AllOf(HasSubstr("inertial unit is not used"),
+                                    HasSubstr(std::to_string(static_cast<int>(roll)) + " deg"))));
+    else
+      EXPECT_THAT(drive.front_end.warnings(), IsEmpty());
+  }
+}
+
 /** Whether key nodes are planar that were seen with these sensors. */
 bool planarWith(const std::vector<InputObservation>& observations) {
   Drive drive;
@@ -311,12 +429,36 @@ bool planarWith(const std::vector<InputObservation>& observations) {
   return drive.packets.at(0).planar;
 }
 
-TEST(FrontEnd, IsPlanarWithALevelLaserAndWheelsOnly) {
+TEST(FrontEnd, IsPlanarWithALevelLaserThatStaysInThePlane) {
   EXPECT_TRUE(planarWith({wheels(kStart, 0), laser(kStart)}));
   EXPECT_TRUE(planarWith({wheels(kStart, 0), laser(kStart, 1)}));
   EXPECT_FALSE(planarWith({wheels(kStart, 0), laser(kStart, 10)})) << "a tilted laser";
-  EXPECT_FALSE(planarWith({robotPose(kStart, Pose3::Identity()), laser(kStart)}));
+  EXPECT_TRUE(planarWith({wheels(kStart, 0), laser(kStart, 0, 180)})) << "upside down";
+  EXPECT_FALSE(planarWith({wheels(kStart, 0), laser(kStart, 0, 90)}));
+  EXPECT_TRUE(planarWith({robotPose(kStart, Pose3::Identity()), laser(kStart)}));
+  const Pose3 slope = expSE3(tangent(1, 0, 0, 0, 0.2, 0));
+  EXPECT_FALSE(planarWith(
+      {robotPose(kStart - 1, Pose3::Identity()), robotPose(kStart, slope), laser(kStart)}));
   EXPECT_FALSE(planarWith({wheels(kStart, 0), cloud(kStart, somePoints())}));
+}
+
+TEST(FrontEnd, APlanarRobotStaysInThePlaneOfItsFirstPose) {
+  Drive drive;
+  const Pose3 start = expSE3(tangent(3, 4, 1.5, 0, 0, 0.7));
+  for (int i = 0; i < 4; ++i) {
+    drive.observe(robotPose(kStart + i, start * expSE3(tangent(3 * i, 0, 0.01 * i, 0.01, 0, 0))));
+    drive.observe(laser(kStart + i));
+  }
+  drive.finish();
+  ASSERT_EQ(drive.packets.size(), 4u);
+  for (const KeyNodePacket& packet : drive.packets) {
+    EXPECT_TRUE(packet.planar);
+    EXPECT_NEAR(packet.odom_T_base.translation().z(), 1.5, 1e-5);
+    if (packet.odometry) {
+      const Pose3& motion = packet.odometry->previous_T_this;
+      EXPECT_LT((motion.matrix() - projectToPlane(motion).matrix()).norm(), 1e-9);
+    }
+  }
 }
 
 TEST(FrontEnd, IsNotPlanarIfAnotherLidarSeesMore) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "TestObservations.h"
@@ -46,15 +48,110 @@ TEST(RecordedOdometry, HoldsThePoseBeyondItsEnds) {
   EXPECT_FALSE(odometry.covers(kStart + 2.001));
 }
 
-TEST(RecordedOdometry, IsPlanarWithWheelsOnly) {
+TEST(RecordedOdometry, IsPlanarAsLongAsTheRobotStaysInThePlane) {
   RecordedOdometry odometry;
   odometry.observe(wheels(kStart, 0));
   odometry.observe(wheels(kStart + 1, 1, 0.5, 0.7));
   EXPECT_TRUE(odometry.planar());
   const Pose3 between = odometry.poseAt(kStart + 0.4);
   EXPECT_EQ(between.matrix(), projectToPlane(between).matrix()) << "not even rounding lifts it";
-  odometry.observe(robotPose(kStart + 2, Pose3::Identity()));
+  odometry.observe(robotPose(kStart + 2, expSE3(tangent(1, 1, 0.02, 0.01, 0, 1))));
+  EXPECT_TRUE(odometry.planar()) << "so much is noise";
+  odometry.observe(robotPose(kStart + 3, expSE3(tangent(1.5, 1, 0, 0.1, 0, 1))));
+  EXPECT_FALSE(odometry.planar()) << "on a slope";
+}
+
+TEST(RecordedOdometry, IsNotPlanarOnARamp) {
+  RecordedOdometry odometry;
+  for (int i = 0; i < 20; ++i)
+    odometry.observe(robotPose(kStart + i, expSE3(tangent(i, 0, 0.04 * i, 0, 0, 0))));
   EXPECT_FALSE(odometry.planar());
+}
+
+/** Ten readings a second of a robot that drives at 1 m/s along x. */
+class DriveAlongX : public testing::Test {
+ protected:
+  void drive(double begin, double end, const Pose3& recorded_T_odom = Pose3::Identity()) {
+    for (int i = 0; begin + 0.1 * i < end - 0.01; ++i) {
+      const double t = begin + 0.1 * i;
+      odometry_.observe(robotPose(kStart + t, recorded_T_odom * planarPose(t, 0, 0)));
+    }
+  }
+  double xAt(double t) { return odometry_.poseAt(kStart + t).translation().x(); }
+
+  RecordedOdometry odometry_;
+};
+
+TEST_F(DriveAlongX, GoesOnWhereOdometryBeginsAnew) {
+  drive(0, 20);
+  drive(20, 40, planarPose(20, 0, 0).inverse());  // counts from the origin again
+  EXPECT_NEAR(xAt(19.95), 19.95, 0.02);
+  EXPECT_NEAR(xAt(30), 30, 0.02) << "at the speed that it had";
+  EXPECT_TRUE(odometry_.doubtBetween(kStart + 10, kStart + 19).isZero());
+  const Matrix6d doubt = odometry_.doubtBetween(kStart + 19, kStart + 21);
+  EXPECT_GT(std::sqrt(doubt(0, 0)), 0.05);
+  EXPECT_LT(std::sqrt(doubt(0, 0)), 0.5);
+  EXPECT_FALSE(odometry_.covarianceBetween(kStart + 19, kStart + 21));
+  EXPECT_THAT(odometry_.warnings(), ElementsAre(HasSubstr("begins anew 1 times")));
+}
+
+TEST_F(DriveAlongX, NoticesARestartNearTheOrigin) {
+  drive(0, 0.8);
+  drive(0.8, 5, planarPose(0.8, 0, 0).inverse());
+  EXPECT_NEAR(xAt(4), 4, 0.02);
+  EXPECT_THAT(odometry_.warnings(), ElementsAre(HasSubstr("begins anew")));
+}
+
+TEST_F(DriveAlongX, NoticesAJumpToAnywhere) {
+  drive(0, 20);
+  drive(20, 40, planarPose(3, 40, 2));
+  EXPECT_NEAR((odometry_.poseAt(kStart + 30).translation() - Eigen::Vector3d(30, 0, 0)).norm(), 0,
+              0.05);
+  EXPECT_THAT(odometry_.warnings(), ElementsAre(HasSubstr("begins anew")));
+}
+
+TEST_F(DriveAlongX, LeavesOutOneReadingThatIsAstray) {
+  for (const Pose3& wrong : {planarPose(25, 0, 0), planarPose(0, 0, 0), planarPose(20, 1, 3)}) {
+    odometry_ = RecordedOdometry();
+    drive(0, 20);
+    odometry_.observe(robotPose(kStart + 20, wrong));
+    EXPECT_FALSE(odometry_.covers(kStart + 20)) << "the next one tells";
+    drive(20.1, 25);
+    for (const double t : {19.95, 20.0, 20.05, 22.0}) EXPECT_NEAR(xAt(t), t, 0.02);
+    EXPECT_THAT(odometry_.warnings(), ElementsAre(HasSubstr("1 odometry readings were dropped")));
+  }
+}
+
+TEST_F(DriveAlongX, KnowsNothingWithinAGap) {
+  drive(0, 20);
+  drive(40, 50);
+  for (const double t : {-0.4, 10.0, 20.3, 39.7, 45.0}) EXPECT_TRUE(odometry_.knows(kStart + t));
+  for (const double t : {-0.6, 21.0, 30.0, 39.0}) EXPECT_FALSE(odometry_.knows(kStart + t)) << t;
+}
+
+TEST(RecordedOdometry, ARobotThatStandsLeavesNoGap) {
+  RecordedOdometry odometry;
+  for (const double t : {0, 1, 2, 3, 4, 5, 6, 60, 61})
+    odometry.observe(wheels(kStart + t, std::min(t, 6.0)));
+  EXPECT_TRUE(odometry.knows(kStart + 30));
+  EXPECT_THAT(odometry.warnings(), IsEmpty());
+}
+
+TEST(RecordedOdometry, SpeedsUpAndTurnsWithoutAWarning) {
+  RecordedOdometry odometry;
+  double x = 0, yaw = 0;
+  for (int i = 0; i < 400;
+       ++i) {  // a car: 4 m/s² up to 20 m/s, hard braking; then turning in place
+    const double t = 0.1 * i;
+    const double speed = t < 5    ? 0
+                         : t < 10 ? 4 * (t - 5)
+                         : t < 20 ? 20
+                                  : std::max(0.0, 220 - 10 * t);
+    x += 0.1 * speed;
+    yaw += t > 30 ? 0.1 * 1.5 : 0;
+    odometry.observe(wheels(kStart + t, x, 0, yaw));
+  }
+  EXPECT_THAT(odometry.warnings(), IsEmpty());
 }
 
 TEST(RecordedOdometry, DropsReadingsWhoseStampsDoNotIncrease) {
@@ -162,9 +259,23 @@ TEST(RecordedOdometry, HasNoCovarianceWhereNoneIsRecorded) {
 TEST(RecordedOdometry, ForgetsOnlyWhatIsNotAskedForAgain) {
   RecordedOdometry odometry;
   for (int i = 0; i <= 20; ++i) odometry.observe(wheels(kStart + i, i));
-  odometry.covarianceBetween(kStart + 10.5, kStart + 15);
   for (const double t : {10.5, 11.25, 20.0})
     EXPECT_NEAR(odometry.poseAt(kStart + t).translation().x(), t, 1e-6);
+}
+
+TEST_F(GrowingCovariance, KeepsTheBeginningOfAnEdgeHoweverLongItLasts) {
+  record(3);
+  odometry_.keepFrom(kStart + 2);
+  Pose3 pose;
+  Matrix6d covariance;
+  simulate(2, 1e-4 * Matrix6d::Identity(), pose, covariance);
+  for (int i = 3; i < 500; ++i) odometry_.observe(robotPose(kStart + i, pose, covariance));
+  EXPECT_LT(odometry_.readingsHeld(), 100u) << "a robot that waits costs no memory";
+  simulate(3, 1e-4 * Matrix6d::Identity(), pose, covariance);
+  odometry_.observe(robotPose(kStart + 500, pose, covariance));
+  const auto between = odometry_.covarianceBetween(kStart + 2, kStart + 500);
+  ASSERT_TRUE(between);
+  EXPECT_LT((*between - step_covariance_).norm(), 1e-5 * step_covariance_.norm());
 }
 
 TEST(RecordedOdometry, IsMadeByName) {

@@ -2,11 +2,13 @@
 
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -72,8 +74,37 @@ inline std::vector<Eigen::Vector3f> somePoints() {
   return {{5, 0, 0}, {0, 5, 0}, {-5, 0, 2}, {0, -5, 2}};
 }
 
+/** What a lidar with eight rings sees from (x, y, 0) in a hall of 30 by 12 m with two pillars. */
+inline std::vector<Eigen::Vector3f> hallSeenFrom(double x, double y) {
+  std::vector<Eigen::Vector3f> points;
+  const Eigen::Vector3d at(x, y, 0);
+  for (int ring = 0; ring < 8; ++ring)
+    for (int step = 0; step < 360; ++step) {
+      const double azimuth = step * kDegree, elevation = (4 * ring - 14) * kDegree;
+      const Eigen::Vector3d ray(std::cos(azimuth) * std::cos(elevation),
+                                std::sin(azimuth) * std::cos(elevation), std::sin(elevation));
+      double range = 100;
+      const auto wall = [&](int axis, double place) {
+        const double r = (place - at[axis]) / ray[axis];
+        if (r > 0) range = std::min(range, r);
+      };
+      const auto pillar = [&](double px, double py, double radius) {
+        const Eigen::Vector2d to(px - x, py - y), flat = ray.head<2>();
+        const double along = to.dot(flat) / flat.squaredNorm();
+        const double beside = (to - along * flat).norm();
+        if (along <= 0 || beside >= radius) return;
+        range = std::min(
+            range, along - std::sqrt((radius * radius - beside * beside) / flat.squaredNorm()));
+      };
+      wall(0, -10), wall(0, 20), wall(1, -5), wall(1, 7), wall(2, -1), wall(2, 4);
+      pillar(4, 3, 0.6), pillar(9, -2, 0.8);
+      points.push_back((range * ray).cast<float>());
+    }
+  return points;
+}
+
 /** A round room of 5 m radius, seen by a 2D laser. */
-inline InputObservation laser(double stamp, double pitch_deg = 0) {
+inline InputObservation laser(double stamp, double pitch_deg = 0, double roll_deg = 0) {
   auto observation = mrpt::obs::CObservation2DRangeScan::Create();
   constexpr size_t kRays = 181;
   observation->aperture = static_cast<float>(M_PI);
@@ -83,7 +114,8 @@ inline InputObservation laser(double stamp, double pitch_deg = 0) {
     observation->setScanRange(i, 5.0f);
     observation->setScanRangeValidity(i, true);
   }
-  observation->sensorPose = mrpt::poses::CPose3D(0.2, 0, 0.4, 0, pitch_deg * kDegree, 0);
+  observation->sensorPose =
+      mrpt::poses::CPose3D(0.2, 0, 0.4, 0, pitch_deg * kDegree, roll_deg * kDegree);
   return wrapped(stamp, "laser", observation);
 }
 

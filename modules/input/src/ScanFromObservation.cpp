@@ -58,8 +58,9 @@ bool isLidar(const CObservation& o) {
 
 bool isPlanarLaser(const CObservation& observation) {
   const auto* laser = dynamic_cast<const CObservation2DRangeScan*>(&observation);
-  return laser && std::abs(laser->sensorPose.pitch()) < kLevel &&
-         std::abs(laser->sensorPose.roll()) < kLevel;
+  if (!laser) return false;
+  const double up = poseFromMrpt(laser->sensorPose).linear()(2, 2);  // of the plane's normal
+  return std::abs(up) > std::cos(kLevel);
 }
 
 std::optional<Scan> scanFromObservation(const CObservation& observation, const std::string& label,

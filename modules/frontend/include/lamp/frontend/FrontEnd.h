@@ -16,6 +16,8 @@
 
 namespace lamp {
 
+class StandstillCheck;
+
 struct FrontEndOptions {
   bool keyed = false;
   double key_node_distance_m = 2.0;
@@ -38,6 +40,7 @@ class FrontEnd {
  public:
   FrontEnd(RobotId robot, const FrontEndOptions& options, std::shared_ptr<OdometrySource> odometry,
            std::optional<StartPrior> prior);
+  ~FrontEnd();
 
   /** \return the key nodes that the observation completes, in time order. */
   std::vector<KeyNodePacket> observe(const InputObservation& observation);
@@ -54,6 +57,7 @@ class FrontEnd {
     size_t key_nodes = 0;
     size_t empty_scans = 0;       ///< no usable point where a key node was due
     size_t without_odometry = 0;  ///< scans that no odometry covers
+    size_t contradicted = 0;      ///< scans that move while odometry stands
     size_t unreadable_scans = 0;  ///< whose external file could not be read
   };
   const Counts& counts() const { return counts_; }
@@ -63,9 +67,16 @@ class FrontEnd {
   void enqueue(ScanParts scan);
   std::vector<KeyNodePacket> processCoveredScans();
   std::optional<KeyNodePacket> processScan(const ScanParts& parts);
+  bool placed(const ScanParts& parts, const Pose3& odom_T_base);
+  void dropWithoutOdometry(double stamp);
+  void leaveOut(double begin, double end, double sigma_m_per_s, double sigma_rad_per_s);
+  bool planar() const { return planar_lidar_ && odometry_->planar(); }
+  Pose3 odometryPose(double stamp);
+  Scan merged(const ScanParts& parts, const Pose3& odom_T_base);
   bool isKeyNode(const Pose3& odom_T_base) const;
   Scan keyedScan(const ScanParts& parts, const Pose3& odom_T_base);
   void appendScan(const InputObservation& observation, const Pose3& base_T_scan, Scan& merged);
+  bool believes(const GravityReading& gravity, const Pose3& odom_T_base);
   KeyNodePacket makePacket(double stamp, const Pose3& odom_T_base, Scan scan);
   Matrix6d motionCovariance(double stamp);
 
@@ -76,6 +87,8 @@ class FrontEnd {
   const std::unique_ptr<ScanAssembler> assembler_;
   AdaptiveVoxelFilter voxel_filter_;
 
+  const std::unique_ptr<StandstillCheck> standstill_;
+
   std::deque<ScanParts> waiting_;
   ExtrasCollector extras_;
 
@@ -83,9 +96,19 @@ class FrontEnd {
   std::optional<Pose3> last_scan_pose_;
   Path path_since_key_;
   std::vector<StampedPose> passed_scans_;
+  double last_stamp_ = 0;  ///< of the last scan, seconds, UTC
+  /** Standard deviations of the motion since the last key node that nobody measured. */
+  struct Unmeasured {
+    double sigma_m = 0, sigma_rad = 0;
+  } unmeasured_;
+  std::optional<Pose3> first_pose_;
   bool planar_lidar_ = true;
+  std::optional<bool> gravity_believed_;  ///< by the first reading
+  double gravity_deviation_ = 0;          ///< of that from upright, radians
+  std::optional<Pose3> world_T_odom_;     ///< by the start pose
   Counts counts_;
   std::string first_unreadable_;
+  double first_without_odometry_ = 0;  ///< stamp, seconds, UTC
 };
 
 }  // namespace lamp

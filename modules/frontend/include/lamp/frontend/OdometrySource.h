@@ -18,13 +18,21 @@ class OdometrySource : public Stage {
   virtual void observe(const InputObservation& observation) = 0;
   /** True once poses up to `stamp` (seconds, UTC) are final. */
   virtual bool covers(double stamp) const = 0;
-  /** `odom_T_base`, interpolated between the neighbouring readings and held beyond the ends.
-   * Readings older than the last stamp asked for may be forgotten. */
+  /** False where the readings around a stamp that is covered are too far apart, in time and in
+   * motion, to tell where the robot was between them, and before the first one. */
+  virtual bool knows(double stamp) const = 0;
+  /** `odom_T_base`, interpolated between the neighbouring readings and held beyond the ends. To be
+   * asked for within a minute: older readings may be forgotten. */
   virtual Pose3 poseAt(double stamp) = 0;
+  /** The motion from this stamp on will be asked for, however long it lasts. */
+  virtual void keepFrom(double stamp) = 0;
   /** Covariance of the motion between two stamps, in the tangent space at that motion; none if the
    * source does not know it. To be asked before later poses. */
   virtual std::optional<Matrix6d> covarianceBetween(double begin, double end) = 0;
-  /** True if the robot's motion is known in the plane only. */
+  /** Covariance that a motion between two stamps has beside, for motion that was not measured: zero
+   * unless odometry began anew between them. To be asked before later poses. */
+  virtual Matrix6d doubtBetween(double begin, double end) const = 0;
+  /** True as long as the robot has moved in the plane of its first pose only. */
   virtual bool planar() const = 0;
   /** What a user should know, in words. */
   virtual std::vector<std::string> warnings() const = 0;

@@ -23,7 +23,7 @@ struct ScanOptions {
  * CObservation3DRangeScan, or CObservation2DRangeScan. */
 bool isLidar(const mrpt::obs::CObservation& observation);
 
-/** A 2D laser whose plane is level on the robot to within 2 degrees. */
+/** A 2D laser whose plane is level on the robot to within 2 degrees, either side up. */
 bool isPlanarLaser(const mrpt::obs::CObservation& observation);
 
 /** Points of a lidar observation in the base frame, with the sensor as the one origin of the rays.
