@@ -1,33 +1,48 @@
 #include "lamp/core/Trajectory.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <sstream>
 #include <stdexcept>
 
+#include "TumText.h"
 #include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
-#include "lamp/core/Ini.h"
 
 namespace lamp {
 
 namespace {
 
-StampedPose parseTumRow(const std::vector<std::string>& words, const std::string& where) {
-  std::array<double, 8> v;
-  bool good = words.size() == v.size();
-  for (size_t i = 0; good && i < v.size(); ++i)
-    good = parseDouble(words[i], v[i]) && std::isfinite(v[i]);
-  const Eigen::Quaterniond q =
-      good ? Eigen::Quaterniond(v[7], v[4], v[5], v[6]) : Eigen::Quaterniond(0, 0, 0, 0);
-  if (!good || !(q.norm() > 1e-6))
-    throw std::runtime_error(where + ": is no 'stamp x y z qx qy qz qw'");
-  StampedPose row;
-  row.stamp = v[0];
-  row.pose.translation() << v[1], v[2], v[3];
-  row.pose.linear() = q.normalized().toRotationMatrix();
-  return row;
+/** Seconds in a unit of stamps, which the size of the greatest tells: those of our days. */
+double unitOf(double greatest) {
+  if (greatest > 1e17) return 1e-9;
+  if (greatest > 1e14) return 1e-6;
+  return greatest > 1e11 ? 1e-3 : 1.0;
+}
+
+StampedPose poseOf(const TumRow& row, double unit, const std::string& where) {
+  const auto& v = row.values;
+  const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
+  if (!(q.norm() > 1e-6))
+    throw std::runtime_error(where + ":" + std::to_string(row.line) +
+                             ": the quaternion qx qy qz qw is zero");
+  StampedPose pose;
+  pose.stamp = v[0] * unit;
+  pose.pose.translation() << v[1], v[2], v[3];
+  pose.pose.linear() = q.normalized().toRotationMatrix();
+  return pose;
+}
+
+/** Stamps that were written with too few digits repeat although the poses differ. */
+void refuseRoundedStamps(const std::vector<TumRow>& rows, const std::string& where) {
+  size_t repeated = 0, first = 0;
+  for (size_t i = 1; i < rows.size(); ++i) {
+    const auto &before = rows[i - 1].values, &here = rows[i].values;
+    if (here[0] == before[0] && here != before && repeated++ == 0) first = i;
+  }
+  if (repeated < 3 || 10 * repeated < rows.size()) return;
+  throw std::runtime_error(where + ":" + std::to_string(rows[first].line) +
+                           ": the stamp is that of the line before, as in " +
+                           std::to_string(repeated) +
+                           " lines; write stamps with all their digits (%.6f)");
 }
 
 }  // namespace
@@ -46,17 +61,13 @@ std::string toTum(const std::vector<StampedPose>& trajectory) {
 }
 
 std::vector<StampedPose> readTum(const std::string& path) {
-  std::istringstream in(readTextFile(path));
+  const std::vector<TumRow> rows = parseTum(readTextFile(path), path);
+  if (rows.empty()) throw std::runtime_error(path + ": holds no pose");
+  refuseRoundedStamps(rows, path);
+  double greatest = 0;
+  for (const TumRow& row : rows) greatest = std::max(greatest, row.values[0]);
   std::vector<StampedPose> trajectory;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    std::replace(line.begin(), line.end(), '\t', ' ');
-    std::replace(line.begin(), line.end(), '\r', ' ');
-    const auto words = splitWords(line.substr(0, line.find('#')), ' ');
-    if (!words.empty())
-      trajectory.push_back(parseTumRow(words, path + ":" + std::to_string(number)));
-  }
-  if (trajectory.empty()) throw std::runtime_error(path + ": holds no pose");
+  for (const TumRow& row : rows) trajectory.push_back(poseOf(row, unitOf(greatest), path));
   std::stable_sort(trajectory.begin(), trajectory.end(),
                    [](const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; });
   const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };

@@ -12,6 +12,7 @@ namespace {
 using test::distance;
 using test::freshFolder;
 using test::thrownBy;
+using testing::AllOf;
 using testing::HasSubstr;
 
 std::vector<StampedPose> readText(const std::string& text) {
@@ -62,6 +63,55 @@ TEST(Tum, MalformedRowIsNamedByFileAndLine) {
     EXPECT_THAT(thrownBy([&] { readText("# head\n0 0 0 0 0 0 0 1\n" + std::string(row) + "\n"); }),
                 HasSubstr("t.tum:3: "))
         << row;
+}
+
+TEST(Tum, ReadsWhatSpreadsheetsAndOtherProgramsWrite) {
+  for (const char* text :
+       {"\xEF\xBB\xBF"
+        "1.5 1 2 3 0 0 0 1\n2.5 4 5 6 0 0 0 1\n",
+        "1.5,1,2,3,0,0,0,1\r\n2.5,4,5,6,0,0,0,1\r\n",
+        "timestamp, tx, ty, tz, qx, qy, qz, qw\n1.5, 1, 2, 3, 0, 0, 0, 1\n2.5, 4, 5, 6, 0, 0, 0, "
+        "1\n",
+        "1.5;1;2;3;0;0;0;1\n2.5;4;5;6;0;0;0;1\n", "1,5;1,0;2;3;0;0;0;1\n2,5;4;5;6;0;0;0;1\n"}) {
+    const auto rows = readText(text);
+    ASSERT_EQ(rows.size(), 2u) << text;
+    EXPECT_EQ(rows[0].stamp, 1.5) << text;
+    EXPECT_LT(distance(rows[0].pose.translation(), Eigen::Vector3d(1, 2, 3)), 1e-12) << text;
+    EXPECT_EQ(rows[1].stamp, 2.5) << text;
+  }
+}
+
+TEST(Tum, TellsTheUnitOfStamps) {
+  for (const char* stamps :
+       {"1600000000.25 1600000000.5", "1600000000250 1600000000500",
+        "1600000000250000 1600000000500000", "1600000000250000000 1600000000500000000"}) {
+    const std::string both = stamps;
+    const size_t space = both.find(' ');
+    const std::string pose = " 0 0 0 0 0 0 1\n";
+    const auto rows = readText(both.substr(0, space) + pose + both.substr(space + 1) + pose);
+    EXPECT_NEAR(rows[0].stamp, 1600000000.25, 1e-6) << stamps;
+    EXPECT_NEAR(rows[1].stamp, 1600000000.5, 1e-6) << stamps;
+  }
+}
+
+TEST(Tum, StampsThatHaveLostTheirDigitsAreNotReducedToOne) {
+  std::string text = "# head\n";
+  for (int i = 0; i < 20; ++i) text += "1.6e+09 " + std::to_string(i) + " 0 0 0 0 0 1\n";
+  EXPECT_THAT(thrownBy([&] { readText(text); }),
+              AllOf(HasSubstr("t.tum:3: "), HasSubstr("with all their digits")));
+}
+
+TEST(Tum, WhatIsNoTumFileIsRefusedWithTheCure) {
+  EXPECT_THAT(thrownBy([] { readText("PK\x03\x04whatever"); }), HasSubstr("spreadsheet"));
+  EXPECT_THAT(thrownBy([] {
+                readText(
+                    "\xFF\xFE"
+                    "1");
+              }),
+              HasSubstr("UTF-8"));
+  EXPECT_THAT(thrownBy([] { readText("t,x,y,z,qw,qx,qy,qz\n1,2,3,4,1,0,0,0\n"); }),
+              AllOf(HasSubstr("t.tum:1: "), HasSubstr("order the columns")));
+  EXPECT_THAT(thrownBy([] { readText("1 2 3 4 0 0 0\n"); }), HasSubstr("has 7 columns"));
 }
 
 TEST(Tum, EmptyAndMissingFilesAreErrors) {

@@ -140,7 +140,7 @@ std::vector<KeyNodePacket> FrontEnd::finish() {
 
 RobotEnd FrontEnd::end() {
   return {robot_, std::move(passed_scans_),
-          last_key_ ? extras_.take(last_key_->pose) : KeyNodeExtras()};
+          last_key_ ? takeExtras(last_key_->pose) : KeyNodeExtras()};
 }
 
 std::optional<KeyNodePacket> FrontEnd::processScan(const ScanParts& parts) {
@@ -254,6 +254,12 @@ bool FrontEnd::believes(const GravityReading& gravity, const Pose3& odom_T_base)
   return *gravity_believed_;
 }
 
+KeyNodeExtras FrontEnd::takeExtras(const Pose3& odom_T_base) {
+  KeyNodeExtras extras = extras_.take(odom_T_base);
+  if (extras.gravity && !believes(*extras.gravity, odom_T_base)) extras.gravity.reset();
+  return extras;
+}
+
 KeyNodePacket FrontEnd::makePacket(double stamp, const Pose3& odom_T_base, Scan scan) {
   KeyNodePacket packet;
   packet.id = {robot_, static_cast<uint32_t>(counts_.key_nodes++)};
@@ -264,9 +270,7 @@ KeyNodePacket FrontEnd::makePacket(double stamp, const Pose3& odom_T_base, Scan 
   packet.passed_scans = std::move(passed_scans_);
   passed_scans_.clear();
   if (!last_key_ && prior_) world_T_odom_ = prior_->world_T_base * odom_T_base.inverse();
-  packet.extras = extras_.take(odom_T_base);
-  if (packet.extras.gravity && !believes(*packet.extras.gravity, odom_T_base))
-    packet.extras.gravity.reset();
+  packet.extras = takeExtras(odom_T_base);
   if (last_key_)
     packet.odometry = {last_key_->pose.inverse() * odom_T_base, motionCovariance(stamp)};
   else

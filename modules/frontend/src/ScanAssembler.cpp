@@ -1,22 +1,59 @@
 #include "lamp/frontend/ScanAssembler.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "lamp/core/Csv.h"
 #include "lamp/input/ScanFromObservation.h"
 
 namespace lamp {
 
+namespace {
+
+/** A lidar that has given nothing for this time, and this many of its intervals, is dead. */
+constexpr double kSilentS = 2.0, kSilentFactor = 5.0;
+
+}  // namespace
+
 std::optional<ScanParts> ReferenceLidarScans::observe(const InputObservation& observation) {
   if (!isLidar(*observation.observation)) return std::nullopt;
-  if (!reference_) reference_ = observation.label;
+  if (!reference_ || (observation.label != *reference_ && isSilent(observation.stamp)))
+    changeReference(observation);
   if (observation.label != *reference_) {
     latest_other_[observation.label] = observation;
     return std::nullopt;
   }
+  noteInterval(observation.stamp);
   ScanParts scan{observation.stamp, {observation}};
   for (const auto& [label, other] : latest_other_)
     if (observation.stamp - other.stamp <= merge_window_s_) scan.observations.push_back(other);
   return scan;
+}
+
+/** A pause of the recording is no interval. */
+void ReferenceLidarScans::noteInterval(double stamp) {
+  if (last_) {
+    const double interval = stamp - *last_;
+    interval_s_ = interval_s_ ? std::min(interval, 2 * *interval_s_) : interval;
+  }
+  last_ = stamp;
+}
+
+bool ReferenceLidarScans::isSilent(double stamp) const {
+  const double most = interval_s_ ? kSilentFactor * *interval_s_ : kSilentFactor * kSilentS;
+  return last_ && stamp - *last_ > std::max(kSilentS, most);
+}
+
+void ReferenceLidarScans::changeReference(const InputObservation& observation) {
+  if (reference_) {
+    warnings_.push_back("the lidar '" + *reference_ + "' is silent after " +
+                        formatFixed(*last_, 3) + "; key nodes are made of scans of '" +
+                        observation.label + "' from then on");
+    interval_s_.reset();
+  }
+  reference_ = observation.label;
+  latest_other_.erase(observation.label);
+  last_.reset();
 }
 
 std::optional<ScanParts> SameStampScans::advanceTo(double stamp) {

@@ -9,6 +9,7 @@ namespace lamp {
 namespace {
 
 using namespace test;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -34,6 +35,39 @@ TEST(ReferenceLidarScans, JoinsTheLatestOfOtherLidars) {
   EXPECT_EQ(text(scans.observe(scan(3, "front"))), "3: front rear");
   EXPECT_EQ(text(scans.observe(scan(4, "front"))), "4: front") << "rear is too old";
   EXPECT_EQ(text(scans.finish()), "none");
+}
+
+TEST(ReferenceLidarScans, AnotherLidarTakesOverFromOneThatDies) {
+  ReferenceLidarScans scans(0.2);
+  size_t of_front = 0, of_rear = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double t = 0.1 * i;
+    if (t < 10)
+      if (const auto parts = scans.observe(scan(t, "front"))) {
+        EXPECT_EQ(parts->observations[0].label, "front");
+        ++of_front;
+      }
+    if (const auto parts = scans.observe(scan(t + 0.05, "rear"))) {
+      EXPECT_EQ(parts->observations.size(), 1u);
+      ++of_rear;
+    }
+  }
+  EXPECT_EQ(of_front, 100u);
+  EXPECT_NEAR(static_cast<double>(of_rear), 300 - 20, 2) << "after two seconds of silence";
+  EXPECT_THAT(scans.warnings(),
+              ElementsAre(AllOf(HasSubstr("'front' is silent"), HasSubstr("'rear'"))));
+}
+
+TEST(ReferenceLidarScans, ASlowLidarAndAPauseOfAllAreNoDeath) {
+  ReferenceLidarScans scans(0.2);
+  for (int i = 0; i < 120; ++i) {
+    const double t = i + (i < 60 ? 0 : 300);
+    if (i % 3 == 0) {
+      EXPECT_NE(text(scans.observe(scan(t, "front"))), "none");
+    }
+    EXPECT_EQ(text(scans.observe(scan(t + 0.5, "rear"))), "none");
+  }
+  EXPECT_THAT(scans.warnings(), IsEmpty());
 }
 
 TEST(SameStampScans, AScanIsCompleteWhenTimeMovesOn) {

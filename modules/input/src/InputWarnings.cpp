@@ -1,6 +1,8 @@
 #include "InputWarnings.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "lamp/core/Csv.h"
 
@@ -8,6 +10,9 @@ namespace lamp {
 namespace {
 
 using Labels = std::vector<LabelReport>;
+
+/** Sensors of one recording are not that far apart in time, seconds. */
+constexpr double kApartS = 10.0;
 
 std::string counted(size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
@@ -84,6 +89,23 @@ void warnOfMissing(const RobotReport& robot, const std::string& who,
     return std::any_of(robot.labels.begin(), robot.labels.end(),
                        [&](const LabelReport& l) { return predicate(l) && l.used > 0; });
   };
+  const auto span = [&](auto predicate) {
+    std::pair<double, double> first_and_last(std::numeric_limits<double>::infinity(), 0);
+    for (const LabelReport& label : robot.labels) {
+      if (!predicate(label) || label.used == 0) continue;
+      first_and_last.first = std::min(first_and_last.first, label.first_stamp);
+      first_and_last.second = std::max(first_and_last.second, label.last_stamp);
+    }
+    return first_and_last;
+  };
+  const auto lidar = span(isRecordedLidar), odometry = span(isRecordedOdometry);
+  if (usesAny(isRecordedLidar) && usesAny(isRecordedOdometry) &&
+      (lidar.first > odometry.second + kApartS || odometry.first > lidar.second + kApartS)) {
+    warnings.push_back(who + "lidars have stamps from " + formatFixed(lidar.first, 3) + " to " +
+                       formatFixed(lidar.second, 3) + " s, odometry from " +
+                       formatFixed(odometry.first, 3) + " to " + formatFixed(odometry.second, 3) +
+                       " s: check that both are of the same recording, clock and unit");
+  }
   if (!usesAny(isRecordedLidar)) warnings.push_back(who + "no lidar scan");
   if (!usesAny(isRecordedOdometry)) warnings.push_back(who + "no odometry");
 }

@@ -65,7 +65,7 @@ void RobotClock::finish() {
 }
 
 void RobotClock::pass(Track& track, const InputObservation& observation) {
-  ++report(observation).used;
+  report(observation).use(observation.stamp);
   track.recent.push_back(sorter_.push(observation));
   if (track.recent.size() > kRecent) track.recent.pop_front();
 }

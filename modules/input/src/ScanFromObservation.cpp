@@ -59,8 +59,9 @@ bool isLidar(const CObservation& o) {
 bool isPlanarLaser(const CObservation& observation) {
   const auto* laser = dynamic_cast<const CObservation2DRangeScan*>(&observation);
   if (!laser) return false;
-  const double up = poseFromMrpt(laser->sensorPose).linear()(2, 2);  // of the plane's normal
-  return std::abs(up) > std::cos(kLevel);
+  // How much the laser's own axes in the plane point up.
+  const Eigen::Vector3d up = poseFromMrpt(laser->sensorPose).linear().row(2);
+  return up.head<2>().cwiseAbs().maxCoeff() < std::sin(kLevel);
 }
 
 std::optional<Scan> scanFromObservation(const CObservation& observation, const std::string& label,

@@ -22,7 +22,7 @@ InputObservation TrajectoryStream::pop() {
   observation->timestamp = mrpt::Clock::fromDouble(pose.stamp);
   observation->sensorLabel = "odometry_file";
   observation->pose.mean = poseToMrpt(pose.pose);
-  ++registry_.label(robot_, observation->sensorLabel, *observation).used;
+  registry_.label(robot_, observation->sensorLabel, *observation).use(pose.stamp);
   return {robot_, observation->sensorLabel, pose.stamp, observation};
 }
 

@@ -312,6 +312,17 @@ TEST_F(RawlogSourceTest, SaysWhatIsMissing) {
   EXPECT_THAT(source.warnings(), ElementsAre("robot 'a': no lidar scan", "robot 'b': no odometry"));
 }
 
+TEST_F(RawlogSourceTest, SaysWhereOdometryIsOfAnotherTime) {
+  const auto path = write("a.rawlog", {cloud(1600000000, "l"), cloud(1600000005, "l")});
+  writeFile(folder_ + "/a.tum", "0.5 1 0 0 0 0 0 1\n2 4 5 6 0 0 0 1\n");
+  auto options = robot("a", path);
+  options.odometry_file = folder_ + "/a.tum";
+  RawlogSource source({}, {options}, table_);
+  drain(source);
+  EXPECT_THAT(source.warnings(), ElementsAre(AllOf(HasSubstr("from 1600000000.000 to"),
+                                                   HasSubstr("odometry from 0.500 to 2.000"))));
+}
+
 TEST_F(RawlogSourceTest, TellsOfDamage) {
   const std::string path = folder_ + "/a.rawlog";
   writeFile(path, bytesOf(*wheels(1, "o")) + foreignObject("vendor::CThing", "abc") +

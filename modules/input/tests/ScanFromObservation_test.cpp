@@ -133,7 +133,11 @@ TEST(ScanFromObservation, PlanarLaserIsLevel) {
   EXPECT_TRUE(isPlanarLaser(o));
   o.sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, 0.04, 0);
   EXPECT_FALSE(isPlanarLaser(o));
-  o.sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, 0, M_PI);  // upside down
+  o.sensorPose = mrpt::poses::CPose3D(0, 0, 0, 1.0, 0, M_PI);  // upside down
+  EXPECT_TRUE(isPlanarLaser(o));
+  o.sensorPose = mrpt::poses::CPose3D(0, 0, 0, 1.0, 0, M_PI - 0.1);
+  EXPECT_FALSE(isPlanarLaser(o));
+  o.sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, M_PI / 2, 0);  // it scans the walls upwards
   EXPECT_FALSE(isPlanarLaser(o));
   EXPECT_FALSE(isPlanarLaser(*cloud(1, "lidar")));
 }

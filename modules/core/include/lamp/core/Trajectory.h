@@ -9,8 +9,11 @@ namespace lamp {
 
 /** TUM format: `stamp x y z qx qy qz qw`, stamps with 6 decimals. */
 std::string toTum(const std::vector<StampedPose>& trajectory);
-/** Reads a TUM file; `#` starts a comment. Sorted by stamp; of equal stamps the first is kept.
- *  \throws std::runtime_error with file and line if a row is malformed, or the file has no row. */
+/** Reads a TUM file; `#` starts a comment. Columns may be separated by spaces, tabs, commas or
+ * semicolons; stamps may be seconds, or milli-, micro- or nanoseconds since 1970. Sorted by stamp;
+ * of equal stamps the first is kept.
+ *  \throws std::runtime_error with file and line if a row is malformed, stamps have lost their
+ *  digits, or the file has no row. */
 std::vector<StampedPose> readTum(const std::string& path);
 
 /** Pose at a stamp by constant-twist interpolation. */

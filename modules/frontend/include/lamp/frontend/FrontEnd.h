@@ -77,6 +77,7 @@ class FrontEnd {
   Scan keyedScan(const ScanParts& parts, const Pose3& odom_T_base);
   void appendScan(const InputObservation& observation, const Pose3& base_T_scan, Scan& merged);
   bool believes(const GravityReading& gravity, const Pose3& odom_T_base);
+  KeyNodeExtras takeExtras(const Pose3& odom_T_base);
   KeyNodePacket makePacket(double stamp, const Pose3& odom_T_base, Scan scan);
   Matrix6d motionCovariance(double stamp);
 

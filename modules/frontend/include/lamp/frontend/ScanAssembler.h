@@ -32,7 +32,8 @@ class ScanAssembler {
 };
 
 /** Raw recordings: each scan of the reference lidar, the first one seen, is joined by the latest
- * scan of each other lidar, unless that is too old. */
+ * scan of each other lidar, unless that is too old. If the reference lidar falls silent, the next
+ * one that speaks takes its place. */
 class ReferenceLidarScans : public ScanAssembler {
  public:
   explicit ReferenceLidarScans(double merge_window_s) : merge_window_s_(merge_window_s) {}
@@ -40,10 +41,17 @@ class ReferenceLidarScans : public ScanAssembler {
   std::optional<ScanParts> advanceTo(double) override { return std::nullopt; }
   std::optional<ScanParts> observe(const InputObservation& observation) override;
   std::optional<ScanParts> finish() override { return std::nullopt; }
-  std::vector<std::string> warnings() const override { return {}; }
+  std::vector<std::string> warnings() const override { return warnings_; }
 
  private:
+  void noteInterval(double stamp);
+  bool isSilent(double stamp) const;
+  void changeReference(const InputObservation& observation);
+
   const double merge_window_s_;
+  std::optional<double> last_;        ///< stamp of the reference lidar's last scan
+  std::optional<double> interval_s_;  ///< between its scans
+  std::vector<std::string> warnings_;
   std::optional<std::string> reference_;
   std::map<std::string, InputObservation> latest_other_;
 };

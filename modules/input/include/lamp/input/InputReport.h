@@ -16,11 +16,17 @@ struct LabelReport {
   bool lidar = false;
   bool odometry = false;
   size_t used = 0;
-  size_t repeated = 0;    ///< dropped: the stamp of the one before
-  size_t backwards = 0;   ///< dropped: stamp before the one before
-  size_t ahead = 0;       ///< dropped: stamp ahead of what is recorded around it
-  size_t left_out = 0;    ///< dropped: the options choose other odometry or lidars
-  size_t unloadable = 0;  ///< dropped: the file with its data cannot be loaded
+  size_t repeated = 0;                     ///< dropped: the stamp of the one before
+  size_t backwards = 0;                    ///< dropped: stamp before the one before
+  size_t ahead = 0;                        ///< dropped: stamp ahead of what is recorded around it
+  size_t left_out = 0;                     ///< dropped: the options choose other odometry or lidars
+  double first_stamp = 0, last_stamp = 0;  ///< of those used, seconds, UTC
+  size_t unloadable = 0;                   ///< dropped: the file with its data cannot be loaded
+
+  void use(double stamp) {
+    if (used++ == 0) first_stamp = stamp;
+    last_stamp = stamp;
+  }
 };
 
 /** A robot's clock was set back within a recording. */
