@@ -66,6 +66,8 @@ void PoseGraph::addNode(const Node& node) {
   auto& of_robot = by_robot_[node.id.robot];
   of_robot.insert(std::upper_bound(of_robot.begin(), of_robot.end(), node.id), node.id);
   nodes_.push_back(node);
+  planar_nodes_ += node.planar;
+  if (node.fixed) in_world_.insert(node.id.robot);
 }
 
 EdgeIndex PoseGraph::addEdge(const Edge& edge) {
@@ -85,6 +87,9 @@ EdgeIndex PoseGraph::addEdge(const Edge& edge) {
     throw std::invalid_argument("pose graph: the information matrix of " + name +
                                 " is not finite, symmetric and positive semi-definite");
   edges_.push_back(edge);
+  if (edge.type == EdgeType::kPrior) in_world_.insert(edge.from.robot);
+  if (edge.isLoopClosure() && edge.betweenRobots())
+    between_robots_[std::minmax(edge.from.robot, edge.to.robot)].push_back(edges_.size() - 1);
   return edges_.size() - 1;
 }
 
@@ -116,27 +121,21 @@ std::vector<RobotId> PoseGraph::robots() const {
 
 bool PoseGraph::shareFrame(RobotId a, RobotId b) const {
   if (a == b) return true;
-  // Robots are few: join those that a prior ties to the world, and those that loops join.
   std::map<RobotId, RobotId> group;
   const auto root = [&](RobotId robot) {
-    while (group.count(robot) && group[robot] != robot) robot = group[robot];
+    for (auto up = group.find(robot); up != group.end(); up = group.find(robot)) robot = up->second;
     return robot;
   };
-  std::optional<RobotId> in_world;
-  for (const Edge& edge : edges_) {
-    if (edge.type == EdgeType::kPrior) {
-      if (in_world) group[root(edge.from.robot)] = root(*in_world);
-      in_world = root(edge.from.robot);
-    } else if (edge.isLoopClosure() && edge.betweenRobots() && edge.verdict == Verdict::kInlier) {
-      group[root(edge.from.robot)] = root(edge.to.robot);
-    }
-  }
+  const auto join = [&](RobotId one, RobotId other) {
+    if (root(one) != root(other)) group[root(one)] = root(other);
+  };
+  for (const RobotId robot : in_world_) join(robot, *in_world_.begin());
+  const auto is_inlier = [&](EdgeIndex e) { return edges_[e].verdict == Verdict::kInlier; };
+  for (const auto& [robots, loops] : between_robots_)
+    if (root(robots.first) != root(robots.second) &&
+        std::any_of(loops.begin(), loops.end(), is_inlier))
+      join(robots.first, robots.second);
   return root(a) == root(b);
-}
-
-bool PoseGraph::planar() const {
-  return !nodes_.empty() &&
-         std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.planar; });
 }
 
 std::vector<Component> PoseGraph::components() const {

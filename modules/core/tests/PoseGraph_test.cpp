@@ -156,6 +156,28 @@ TEST(PoseGraph, RobotsWithStartPosesShareTheWorld) {
   EXPECT_FALSE(graph.shareFrame(kA, kC));
 }
 
+TEST(PoseGraph, RobotsWithFixedNodesShareTheWorld) {
+  PoseGraph graph = threeRobots();
+  addPrior(graph, kA);
+  Node fixed = node(kC, 1);
+  fixed.fixed = true;
+  graph.addNode(fixed);
+  EXPECT_TRUE(graph.shareFrame(kC, kA));
+  EXPECT_FALSE(graph.shareFrame(kC, kB));
+}
+
+TEST(PoseGraph, FramesFollowTheVerdicts) {
+  PoseGraph graph = threeRobots();
+  const EdgeIndex ab = addLoop(graph, {kB, 0}, {kA, 0}), again = addLoop(graph, {kA, 1}, {kB, 1});
+  addLoop(graph, {kB, 0}, {kC, 0});
+  EXPECT_TRUE(graph.shareFrame(kA, kC));
+  graph.edges()[ab].verdict = Verdict::kOutlier;
+  EXPECT_TRUE(graph.shareFrame(kA, kC)) << "by the other one";
+  graph.edges()[again].verdict = Verdict::kPending;
+  EXPECT_FALSE(graph.shareFrame(kA, kC));
+  EXPECT_TRUE(graph.shareFrame(kB, kC));
+}
+
 TEST(PoseGraph, RobotsShareAFrameThroughLoops) {
   PoseGraph graph = threeRobots();
   addLoop(graph, {kA, 0}, {kC, 0}, Verdict::kOutlier);

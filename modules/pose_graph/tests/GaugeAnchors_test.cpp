@@ -41,6 +41,18 @@ TEST(GaugeAnchors, DroppedLoopLeavesTwoComponents) {
   EXPECT_THAT(gaugeAnchors(twoRobots(), {1, 1, 0}), ElementsAre(1, 3));
 }
 
+TEST(GaugeAnchors, FixedNodeHoldsItsComponentOnly) {
+  PoseGraph graph = twoRobots();
+  Node fixed;
+  fixed.id = key_node(1, 2);
+  fixed.fixed = true;
+  graph.addNode(fixed);
+  graph.addEdge(makeEdge(EdgeType::kOdometry, key_node(1, 1), key_node(1, 2), Pose3::Identity(),
+                         kInformation));
+  EXPECT_THAT(gaugeAnchors(graph, {1, 1, 1, 1}), IsEmpty());
+  EXPECT_THAT(gaugeAnchors(graph, {1, 1, 0, 1}), ElementsAre(3));
+}
+
 TEST(GaugeAnchors, PriorHoldsItsComponentOnly) {
   PoseGraph graph = twoRobots();
   addPrior(graph, key_node(1, 1));

@@ -42,6 +42,19 @@ TEST(OdometryChains, DifferencesOfSumsAreTheComposedCovariance) {
   }
 }
 
+TEST(OdometryChains, AnEdgeThatSkipsAKeyNodeJoinsNoChain) {
+  PoseGraph graph;
+  for (int i = 0; i < 3; ++i) {
+    Node node;
+    node.id = key_node(0, i);
+    graph.addNode(node);
+  }
+  graph.addEdge(makeEdge(EdgeType::kOdometry, key_node(0, 0), key_node(0, 2), planarPose(2, 0, 0),
+                         informationOf(0.1, 0.1)));
+  const OdometryChains odometry(graph);
+  EXPECT_EQ(odometry.size(), 3);
+}
+
 TEST(OdometryChains, BackwardsIsTheInverse) {
   const PoseGraph graph = chains(false).graph;
   const OdometryChains odometry(graph);

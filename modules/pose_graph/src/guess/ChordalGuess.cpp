@@ -85,7 +85,7 @@ std::vector<const Edge*> relativeEdges(const PoseGraph& graph) {
   return edges;
 }
 
-/** Nodes with a prior, and the first node of each component without. */
+/** Fixed nodes, those with a prior, and the first node of each component without. */
 std::vector<bool> heldNodes(const PoseGraph& graph) {
   std::vector<double> weights;
   std::vector<bool> held(graph.nodes().size(), false);
@@ -94,6 +94,7 @@ std::vector<bool> heldNodes(const PoseGraph& graph) {
     if (edge.type == EdgeType::kPrior) held[graph.place(edge.from)] = true;
   }
   for (const size_t anchor : gaugeAnchors(graph, weights)) held[anchor] = true;
+  for (size_t i = 0; i < held.size(); ++i) held[i] = held[i] || graph.nodes()[i].fixed;
   return held;
 }
 

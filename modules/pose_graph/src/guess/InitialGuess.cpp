@@ -5,60 +5,15 @@
 #include <optional>
 #include <utility>
 
+#include "guess/FixedNodes.h"
 #include "lamp/core/ChiSquare.h"
+#include "lamp/core/TreeLayout.h"
 #include "rejection/FrameAverages.h"
 #include "solver/Information.h"
 
 namespace lamp {
 
 namespace {
-
-/** Lays out everything that active edges join to the nodes that are placed one by one. */
-class TreeLayout {
- public:
-  explicit TreeLayout(const PoseGraph& graph)
-      : steps_(graph.nodes().size()),
-        placed_(graph.nodes().size(), false),
-        poses_(graph.nodes().size(), Pose3::Identity()) {
-    for (const Edge& edge : graph.edges()) {
-      if (!edge.joinsPoses() || !edge.active()) continue;
-      const size_t from = graph.place(edge.from), to = graph.place(edge.to);
-      steps_[from].push_back({to, edge.from_T_to});
-      steps_[to].push_back({from, edge.from_T_to.inverse()});
-    }
-  }
-
-  void place(size_t seed, const Pose3& world_T_base) {
-    if (placed_[seed]) return;
-    set(seed, world_T_base);
-    std::vector<size_t> reached = {seed};
-    for (size_t next = 0; next < reached.size(); ++next) {
-      const size_t at = reached[next];
-      for (const Step& step : steps_[at]) {
-        if (placed_[step.to]) continue;
-        set(step.to, poses_[at] * step.at_T_to);
-        reached.push_back(step.to);
-      }
-    }
-  }
-
-  std::vector<Pose3> take() { return std::move(poses_); }
-
- private:
-  struct Step {
-    size_t to;
-    Pose3 at_T_to;
-  };
-
-  void set(size_t node, const Pose3& world_T_base) {
-    placed_[node] = true;
-    poses_[node] = normalized(world_T_base);
-  }
-
-  std::vector<std::vector<Step>> steps_;
-  std::vector<bool> placed_;
-  std::vector<Pose3> poses_;
-};
 
 /** Places the first key node of each chain of odometry. */
 class FrameLayout {
@@ -139,6 +94,7 @@ std::vector<Pose3> initialGuess(const PoseGraph& graph, const std::vector<bool>&
   std::vector<Pose3> poses;
   for (const Node& node : graph.nodes())
     poses.push_back(normalized(first[chains.chain(node.id)] * chains.poseFromFirst(node.id)));
+  bendToFixedNodes(graph, chains, poses);
   return poses;
 }
 
@@ -154,11 +110,18 @@ std::vector<Pose3> spanningTreeGuess(const PoseGraph& graph) {
                    [](const Edge* a, const Edge* b) { return a->from < b->from; });
 
   TreeLayout layout(graph);
-  for (const Edge* prior : priors) layout.place(graph.place(prior->from), prior->from_T_to);
+  for (const Node& node : graph.nodes())
+    if (node.fixed) layout.place(graph.place(node.id), node.world_T_base);
+  layout.spread();
+  const auto seed = [&](KeyNodeId id, const Pose3& world_T_base) {
+    if (layout.placed(graph.place(id))) return;
+    layout.place(graph.place(id), world_T_base);
+    layout.spread();
+  };
+  for (const Edge* prior : priors) seed(prior->from, prior->from_T_to);
   for (const RobotId robot : graph.robots())
-    for (const KeyNodeId id : graph.robotNodes(robot))
-      layout.place(graph.place(id), graph.node(id).world_T_base);
-  return layout.take();
+    for (const KeyNodeId id : graph.robotNodes(robot)) seed(id, graph.node(id).world_T_base);
+  return layout.poses();
 }
 
 }  // namespace lamp

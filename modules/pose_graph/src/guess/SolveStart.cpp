@@ -9,11 +9,13 @@ namespace lamp {
 
 namespace {
 
-/** Robots and the world, joined by admitted priors and loop closures. */
+/** Robots and the world, joined by fixed key nodes, and admitted priors and loop closures. */
 class Frames {
  public:
   Frames(const PoseGraph& graph, const std::vector<bool>& admitted)
       : robots_(graph.robots()), sets_(robots_.size() + 1) {
+    for (const Node& node : graph.nodes())
+      if (node.fixed) sets_.join(number(node.id), kWorld);
     for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
       const Edge& edge = graph.edges()[e];
       if (edge.type == EdgeType::kPrior) sets_.join(number(edge.from), kWorld);

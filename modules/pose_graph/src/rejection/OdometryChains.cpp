@@ -8,6 +8,8 @@ namespace lamp {
 
 namespace {
 
+constexpr double kFixedVariance = 1e-12;
+
 /** A covariance at the end of `T`, seen from its start. */
 Matrix6d carried(const Pose3& T, const Matrix6d& covariance) {
   const Matrix6d Ad = adjoint(T);
@@ -19,43 +21,50 @@ Matrix6d carried(const Pose3& T, const Matrix6d& covariance) {
 OdometryChains::OdometryChains(const PoseGraph& graph)
     : graph_(graph), links_(graph.nodes().size()) {
   for (const RobotId robot : graph.robots()) follow(robot);
-  for (const Edge& edge : graph.edges()) {
-    if (edge.type != EdgeType::kPrior) continue;
-    const Link& link = links_[graph.place(edge.from)];
-    if (priors_[link.chain]) continue;
-    const Matrix6d covariance = boundedCovariance(edge.information, graph.planar());
-    priors_[link.chain] = {edge.from_T_to * link.first_T_node.inverse(),
-                           carried(link.first_T_node, covariance)};
-  }
+  const auto addPrior = [&](KeyNodeId id, const Pose3& world_T_base, const Matrix6d& covariance) {
+    const Link& link = links_[graph.place(id)];
+    if (!priors_[link.chain])
+      priors_[link.chain] = {world_T_base * link.first_T_node.inverse(),
+                             carried(link.first_T_node, covariance)};
+  };
+  for (const Node& node : graph.nodes())
+    if (node.fixed) addPrior(node.id, node.world_T_base, kFixedVariance * Matrix6d::Identity());
+  for (const Edge& edge : graph.edges())
+    if (edge.type == EdgeType::kPrior)
+      addPrior(edge.from, edge.from_T_to, boundedCovariance(edge.information, graph.planar()));
 }
 
 void OdometryChains::follow(RobotId robot) {
   const bool planar = graph_.planar();
-  std::unordered_map<KeyNodeId, RelativePose> to_next;
+  struct Step {
+    KeyNodeId to;
+    RelativePose measured;
+  };
+  std::unordered_map<KeyNodeId, Step> steps;
   for (const Edge& edge : graph_.edges()) {
     if (edge.type != EdgeType::kOdometry || edge.from.robot != robot) continue;
     const Matrix6d covariance = boundedCovariance(edge.information, planar);
     if (edge.from < edge.to)
-      to_next[edge.from] = {edge.from_T_to, covariance};
+      steps[edge.from] = {edge.to, {edge.from_T_to, covariance}};
     else  // (T · Exp(d))⁻¹ = T⁻¹ · Exp(-Ad(T) d)
-      to_next[edge.to] = {edge.from_T_to.inverse(), carried(edge.from_T_to, covariance)};
+      steps[edge.to] = {edge.from, {edge.from_T_to.inverse(), carried(edge.from_T_to, covariance)}};
   }
   const Link* last = nullptr;
-  const RelativePose* step = nullptr;
+  const Step* step = nullptr;
   for (const KeyNodeId id : graph_.robotNodes(robot)) {
     Link& link = links_[graph_.place(id)];
-    if (last && step) {
+    if (last && step && step->to == id) {
       link.chain = last->chain;
-      link.first_T_node = normalized(last->first_T_node * step->a_T_b);
-      link.covariance = last->covariance + carried(link.first_T_node, step->covariance);
+      link.first_T_node = normalized(last->first_T_node * step->measured.a_T_b);
+      link.covariance = last->covariance + carried(link.first_T_node, step->measured.covariance);
     } else {
       link.chain = static_cast<int>(priors_.size());
       priors_.emplace_back();
       first_.push_back(id);
     }
     last = &link;
-    const auto next = to_next.find(id);
-    step = next == to_next.end() ? nullptr : &next->second;
+    const auto next = steps.find(id);
+    step = next == steps.end() ? nullptr : &next->second;
   }
 }
 

@@ -17,8 +17,8 @@ struct RelativePose {
  *
  * The errors of a chain's edges, each carried to the chain's first node by the adjoint, are summed
  * along the chain; the covariance of a piece is the difference of two sums, carried to its end. A
- * chain ends where an odometry edge is missing. Between chains the priors of their first key nodes
- * relate, where both have one. */
+ * chain ends where an odometry edge is missing. Between chains priors and fixed key nodes relate,
+ * where both have one: a fixed one counts before priors, else the first one of the chain. */
 class OdometryChains {
  public:
   explicit OdometryChains(const PoseGraph& graph);

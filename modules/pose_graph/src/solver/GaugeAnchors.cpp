@@ -17,6 +17,8 @@ std::vector<std::optional<size_t>> gauges(const PoseGraph& graph,
   for (size_t e = 0; e < edges.size(); ++e)
     if (edges[e].type == EdgeType::kPrior && weights[e] > 0)
       held[components.root(graph.place(edges[e].from))] = true;
+  for (size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].fixed) held[components.root(i)] = true;
 
   std::vector<size_t> first(nodes.size());  // by root
   for (size_t i = 0; i < nodes.size(); ++i) {

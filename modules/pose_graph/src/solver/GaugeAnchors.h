@@ -8,7 +8,8 @@
 namespace lamp {
 
 /** For each node the one (both as places in PoseGraph::nodes()) that its pose is known relative to:
- * the first key node of its component; none for the world, if a prior reaches the component.
+ * the first key node of its component; none for the world, if a prior or a fixed key node reaches
+ * the component.
  * Components are joined by edges with a weight above zero; priors do not join.
  * \param weights one for each edge. */
 std::vector<std::optional<size_t>> gauges(const PoseGraph& graph,

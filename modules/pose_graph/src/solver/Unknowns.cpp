@@ -27,7 +27,7 @@ Unknowns findUnknowns(const PoseGraph& graph, const std::vector<double>& weights
   Unknowns unknowns;
   unknowns.row.assign(graph.nodes().size() + graph.landmarks().size(), -1);
   for (size_t i = 0; i < graph.nodes().size(); ++i) {
-    if (gauge[i] == i && !level[i]) continue;
+    if (graph.nodes()[i].fixed || (gauge[i] == i && !level[i])) continue;
     if (gauge[i] == i) unknowns.level_anchors.push_back(i);
     unknowns.row[i] = unknowns.size++;
   }

@@ -17,7 +17,8 @@ struct Unknowns {
   std::vector<size_t> level_anchors;
 };
 
-/** Held are gaugeAnchors(), landmarks of known position, and those that no edge reaches.
+/** Held are gaugeAnchors(), fixed key nodes, landmarks of known position, and those that no edge
+ * reaches.
  * \param weights one for each edge; those of weight zero are no part of the problem. */
 Unknowns findUnknowns(const PoseGraph& graph, const std::vector<double>& weights);
 

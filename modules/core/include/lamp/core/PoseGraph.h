@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "lamp/core/Geometry.h"
@@ -34,6 +37,7 @@ struct Node {
   Pose3 world_T_base = Pose3::Identity();  ///< the current estimate
   Pose3 odom_T_base = Pose3::Identity();   ///< dead reckoning since the robot's first scan
   bool planar = false;                     ///< moves in x, y and yaw only
+  bool fixed = false;                      ///< surveyed: `world_T_base` is no estimate and stays
 };
 
 /** A place that robots see or measure distances to: an artifact, a radio anchor. */
@@ -111,6 +115,7 @@ class PoseGraph {
 
   bool contains(KeyNodeId id) const { return place_.count(id) != 0; }
   const Node& node(KeyNodeId id) const { return nodes_[place(id)]; }
+  /** For its poses and stamp: `planar` and `fixed` stay as they were added. */
   Node& node(KeyNodeId id) { return nodes_[place(id)]; }
   /** Place in nodes(). \throws std::out_of_range. */
   size_t place(KeyNodeId id) const { return place_.at(id); }
@@ -119,12 +124,12 @@ class PoseGraph {
   const std::vector<KeyNodeId>& robotNodes(RobotId robot) const;
   std::vector<RobotId> robots() const;
 
-  /** Where poses of both robots can be compared: one robot, two robots with a start pose, or robots
-   * that loop closures have joined in an optimisation. */
+  /** Where poses of both robots can be compared: one robot, two robots with a start pose or a fixed
+   * key node, or robots that loop closures have joined in an optimisation. */
   bool shareFrame(RobotId a, RobotId b) const;
 
   /** True if every node is planar (and there is one). */
-  bool planar() const;
+  bool planar() const { return !nodes_.empty() && planar_nodes_ == nodes_.size(); }
 
   /** Joined by odometry and by loop closures that are not rejected; nothing else joins. Largest
    * first, ties by first id. */
@@ -137,6 +142,10 @@ class PoseGraph {
   std::unordered_map<std::string, LandmarkIndex> landmark_by_name_;
   std::unordered_map<KeyNodeId, size_t> place_;
   std::unordered_map<RobotId, std::vector<KeyNodeId>> by_robot_;
+  size_t planar_nodes_ = 0;
+  std::set<RobotId> in_world_;  ///< robots with a prior or a fixed node
+  /** Loop closures between two robots, by the robots. */
+  std::map<std::pair<RobotId, RobotId>, std::vector<EdgeIndex>> between_robots_;
 };
 
 }  // namespace lamp

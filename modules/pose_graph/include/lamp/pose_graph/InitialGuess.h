@@ -11,7 +11,7 @@ namespace lamp {
  * Each chain of odometry edges is laid out rigidly from its prior. Chains that have none, or one
  * that is less sure than the loop closures that agree, are placed by the robust average of their
  * admitted loops to chains that are placed (the most agreeing first); where there are none either,
- * by the current estimate of their first key node.
+ * by the current estimate of their first key node. Between fixed key nodes a chain is bent.
  * \param admitted one flag for each edge. */
 std::vector<Pose3> initialGuess(const PoseGraph& graph, const std::vector<bool>& admitted);
 /** All loops are admitted. */
