@@ -15,7 +15,7 @@
 #include "lamp/pose_graph/BackEnd.h"
 #include "lamp/pose_graph/ChanceAgreement.h"
 #include "lamp/pose_graph/FalseLoops.h"
-#include "lamp/pose_graph/G2oFile.h"
+#include "lamp/core/G2oFile.h"
 #include "lamp/pose_graph/Gnc.h"
 #include "lamp/pose_graph/OdometryGate.h"
 #include "lamp/pose_graph/PlainOptimizers.h"

@@ -1,5 +1,5 @@
 #include "FuzzTarget.h"
-#include "lamp/pose_graph/G2oFile.h"
+#include "lamp/core/G2oFile.h"
 
 using namespace lamp;
 

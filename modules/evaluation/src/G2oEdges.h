@@ -18,7 +18,7 @@ struct G2oEdge {
 using G2oEdges = std::map<std::pair<uint32_t, uint32_t>, std::vector<G2oEdge>>;
 
 /** Edges by the ids of their ends. An edge of a planar graph fixes z, roll and pitch.
- * \throws std::runtime_error with file and line if an edge is malformed. */
+ * \throws std::runtime_error with file and line if the file is malformed. */
 G2oEdges readG2oEdges(const std::string& path);
 
 }  // namespace lamp::evaluation

@@ -2,12 +2,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "lamp/core/G2oFile.h"
 #include "lamp/core/GraphFiles.h"
 #include "lamp/core/PoseGraph.h"
 #include "lamp/pose_graph/InitialGuess.h"
@@ -69,69 +68,16 @@ inline Edge makeEdge(EdgeType type, KeyNodeId from, KeyNodeId to, const Pose3& f
   return edge;
 }
 
-/** Reads the edges of a g2o file as one robot's graph; edges between neighbours are odometry. The
- * nodes start at the odometry chain, and the first gets a tight prior at the origin. */
+/** A file's graph as one robot's. The nodes start at the odometry chain, and the first gets a tight
+ * prior at the origin. */
 inline PoseGraph readG2o(const std::string& path) {
-  struct Row {
-    int from, to;
-    Pose3 from_T_to;
-    Matrix6d information;
-  };
-  std::vector<Row> rows;
-  std::ifstream file(path);
-  bool planar = false;
-  int last = 0;
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    std::string tag;
-    words >> tag;
-    Row row{0, 0, Pose3::Identity(), Matrix6d::Identity()};
-    if (tag == "EDGE_SE2") {
-      double x, y, yaw;
-      words >> row.from >> row.to >> x >> y >> yaw;
-      row.from_T_to = planarPose(x, y, yaw);
-      for (int i = 0; i < 3; ++i)
-        for (int j = i; j < 3; ++j) {
-          words >> row.information(kPlanarAxes[i], kPlanarAxes[j]);
-          row.information(kPlanarAxes[j], kPlanarAxes[i]) =
-              row.information(kPlanarAxes[i], kPlanarAxes[j]);
-        }
-      planar = true;
-    } else if (tag == "EDGE_SE3:QUAT") {
-      Eigen::Vector3d t;
-      Eigen::Quaterniond q;
-      words >> row.from >> row.to >> t.x() >> t.y() >> t.z() >> q.x() >> q.y() >> q.z() >> q.w();
-      row.from_T_to.translation() = t;
-      row.from_T_to.linear() = q.normalized().toRotationMatrix();
-      Matrix6d information;
-      for (int i = 0; i < 6; ++i)
-        for (int j = i; j < 6; ++j) {
-          words >> information(i, j);
-          information(j, i) = information(i, j);
-        }
-      row.information = fromG2oInformation(information);
-    } else {
-      continue;
-    }
-    last = std::max({last, row.from, row.to});
-    rows.push_back(row);
-  }
-
+  const PoseGraph file = readG2oFile(path).graph;
+  const KeyNodeId first = file.nodes().front().id;
   PoseGraph graph;
-  for (int i = 0; i <= last; ++i) {
-    Node node;
-    node.id = key_node(0, i);
-    node.planar = planar;
-    graph.addNode(node);
-  }
-  graph.addEdge(makeEdge(EdgeType::kPrior, key_node(0, 0), key_node(0, 0), Pose3::Identity(),
-                         informationOf(1e-3, 1e-3)));
-  for (const Row& row : rows) {
-    const bool odometry = std::abs(row.from - row.to) == 1;
-    graph.addEdge(makeEdge(odometry ? EdgeType::kOdometry : EdgeType::kLoopClosure,
-                           key_node(0, row.from), key_node(0, row.to), row.from_T_to,
-                           row.information));
-  }
+  for (const Node& node : file.nodes()) graph.addNode(node);
+  graph.addEdge(
+      makeEdge(EdgeType::kPrior, first, first, Pose3::Identity(), informationOf(1e-3, 1e-3)));
+  for (const Edge& edge : file.edges()) graph.addEdge(edge);
   const std::vector<Pose3> guess = initialGuess(graph);
   for (size_t i = 0; i < guess.size(); ++i) graph.node(graph.nodes()[i].id).world_T_base = guess[i];
   return graph;

@@ -1,16 +1,19 @@
 #include "lamp/pose_graph/PgoApp.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <limits>
 
 #include "lamp/core/Files.h"
-#include "lamp/core/GraphFiles.h"
+#include "lamp/core/G2oFile.h"
 #include "lamp/core/Program.h"
 #include "lamp/core/Version.h"
 #include "lamp/pose_graph/BackEnd.h"
+#include "lamp/pose_graph/ChanceAgreement.h"
 #include "lamp/pose_graph/FalseLoops.h"
 #include "pgo/PgoReport.h"
+#include "pgo/StatedErrors.h"
 
 namespace lamp {
 
@@ -18,6 +21,7 @@ namespace {
 
 struct Arguments {
   std::string graph, config, out, json, covariances;
+  std::string odometry_edges = toString(OdometryRule::kAuto);
   double add_outliers = 0;
   int seed = 1;
 };
@@ -34,6 +38,13 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--out", arguments.out, "The optimised graph, without the loops rejected")
       ->type_name("OUT.g2o")
       ->required();
+  app.add_option("--odometry-edges", arguments.odometry_edges,
+                 "Which edges are odometry, which is never rejected: between successive ids (ids), "
+                 "from id to id + 1 (next), between successive VERTEX lines (vertices), along the "
+                 "file's edges (edges), or a FILE with a pair of ids in each line; auto: ids, or "
+                 "what else chains the nodes if ids hardly do")
+      ->type_name("RULE|FILE")
+      ->capture_default_str();
   app.add_option("--add-outliers", arguments.add_outliers,
                  "Adds false loops until they are this share of all, and counts how many are found")
       ->type_name("SHARE")
@@ -77,13 +88,34 @@ BackEnd makeBackEnd(const std::string& config) {
   return back_end;
 }
 
+/** What agrees by chance cannot be told without knowing how large errors are. */
+void leaveChanceOut(G2oGraph& g2o, BackEnd& back_end) {
+  const bool is_identity = g2o.information == InformationKind::kIdentity;
+  if (!is_identity &&
+      !(g2o.information == InformationKind::kConstant && overstatesErrors(g2o.graph)))
+    return;
+  auto& stages = back_end.rejections;
+  const auto judgesChance = [](const std::shared_ptr<OutlierRejection>& stage) {
+    return std::dynamic_pointer_cast<ChanceAgreement>(stage) != nullptr;
+  };
+  stages.erase(std::remove_if(stages.begin(), stages.end(), judgesChance), stages.end());
+  g2o.notes.push_back(
+      std::string("the information ") +
+      (is_identity ? "is the identity in all edges and says nothing of their errors"
+                   : "is the same in all edges, and loop closures meet odometry far better than it "
+                     "says") +
+      ": ChanceAgreement takes no part, and only loop closures that contradict others are "
+      "rejected");
+}
+
 void run(const Arguments& arguments) {
   registerAllClasses_lamp_core();
   registerAllClasses_lamp_pose_graph();
-  const BackEnd back_end = makeBackEnd(arguments.config);
-  G2oGraph g2o = readG2oFile(arguments.graph);
+  BackEnd back_end = makeBackEnd(arguments.config);
+  G2oGraph g2o = readG2oFile(arguments.graph, odometryEdgesFrom(arguments.odometry_edges));
   const size_t true_edges = g2o.graph.edges().size();
   addFalseLoops(g2o.graph, arguments.add_outliers, static_cast<unsigned>(arguments.seed));
+  leaveChanceOut(g2o, back_end);
 
   const OptimizationResult result = back_end.optimize(g2o.graph);
   const auto report = pgoReport(g2o, result, true_edges);
@@ -95,7 +127,12 @@ void run(const Arguments& arguments) {
   writeTextFile(arguments.out, toG2o(g2o));
   if (!arguments.covariances.empty())
     writeTextFile(arguments.covariances, covarianceTable(g2o).text());
-  std::cout << (arguments.json == "-" ? report.dump(1) + "\n" : pgoSummary(report));
+  std::cout << (arguments.json == "-" ? report.dump(1) + "\n" : pgoSummary(report)) << std::flush;
+  if (!report["success"])
+    throw std::runtime_error("less than a tenth of the loop closures were kept, so " +
+                             arguments.out +
+                             " rests on odometry alone; check what was taken for odometry "
+                             "(--odometry-edges) and the information matrices");
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include "pgo/PgoReport.h"
 
+#include <algorithm>
 #include <array>
-
-#include "lamp/pose_graph/MarginalCovariances.h"
-
 #include <iomanip>
 #include <sstream>
 
 #include "lamp/pose_graph/EdgeResiduals.h"
+#include "lamp/pose_graph/MarginalCovariances.h"
 
 namespace lamp {
 
@@ -31,6 +30,35 @@ Json scores(const OptimizationResult& result, size_t true_edges) {
           {"false_loops", result.loops.size() - static_cast<size_t>(all)},
           {"precision", share(right, kept)},
           {"recall", share(right, all)}};
+}
+
+/** Whether of the file's loop closures a tenth was kept. */
+bool isSuccess(const OptimizationResult& result, const PoseGraph& graph, size_t true_edges) {
+  size_t kept = 0, all = 0;
+  for (const LoopVerdict& loop : result.loops) {
+    if (loop.edge >= true_edges || !graph.edges()[loop.edge].isLoopClosure()) continue;
+    ++all;
+    kept += loop.verdict == Verdict::kInlier;
+  }
+  return result.report.usable && 10 * kept >= all;
+}
+
+/** Chains are pieces of odometry; a node without any is one of its own. */
+Json odometry(const G2oGraph& g2o) {
+  const auto& edges = g2o.graph.edges();
+  const auto count = static_cast<size_t>(std::count_if(
+      edges.begin(), edges.end(), [](const Edge& e) { return e.type == EdgeType::kOdometry; }));
+  return {{"rule", toString(g2o.odometry)},
+          {"edges", count},
+          {"chains", g2o.graph.nodes().size() - count}};
+}
+
+const char* inWords(const std::string& rule) {
+  if (rule == toString(OdometryRule::kNext)) return "from an id to the next number";
+  if (rule == toString(OdometryRule::kVertices)) return "between successive VERTEX lines";
+  if (rule == toString(OdometryRule::kEdges)) return "that make paths, in the order of the file";
+  if (rule == toString(OdometryRule::kListed)) return "as listed";
+  return "between successive ids";
 }
 
 Json edgeRows(const G2oGraph& g2o, const OptimizationResult& result,
@@ -77,6 +105,9 @@ Json pgoReport(const G2oGraph& g2o, const OptimizationResult& result, size_t tru
                  {"nodes", g2o.graph.nodes().size()},
                  {"robots", g2o.letters.size()},
                  {"edges", rows.size()},
+                 {"odometry", odometry(g2o)},
+                 {"information", toString(g2o.information)},
+                 {"notes", g2o.notes},
                  {"loops", loops},
                  {"landmarks", g2o.graph.landmarks().size()},
                  {"sightings", sightings},
@@ -84,6 +115,7 @@ Json pgoReport(const G2oGraph& g2o, const OptimizationResult& result, size_t tru
                  {"inliers", inliers},
                  {"skipped_lines", g2o.skipped},
                  {"usable", result.report.usable},
+                 {"success", isSuccess(result, g2o.graph, true_edges)},
                  {"termination", result.report.termination},
                  {"rounds", result.report.rounds},
                  {"iterations", result.report.iterations},
@@ -116,6 +148,9 @@ std::string pgoSummary(const Json& report) {
   std::ostringstream text;
   text << std::setprecision(8) << report["nodes"] << " nodes of " << report["robots"]
        << " robot(s), " << report["edges"] << " edges\n"
+       << "odometry: " << report["odometry"]["edges"] << " edges "
+       << inWords(report["odometry"]["rule"]) << ", in " << report["odometry"]["chains"]
+       << " chain(s)\n"
        << "loop closures: " << report["inliers"] << " of " << report["loops"] << " kept\n"
        << (report["landmarks"] > 0 ? "landmarks: " + report["landmarks"].dump() +
                                          ", sightings: " + report["sightings_kept"].dump() +
@@ -125,6 +160,7 @@ std::string pgoSummary(const Json& report) {
        << report["cost_after"].get<double>() << " after, weighted\n"
        << report["rounds"] << " rounds, " << report["iterations"] << " iterations; "
        << report["termination"].get<std::string>() << "\n";
+  for (const std::string note : report["notes"]) text << "note: " << note << "\n";
   for (const auto& [tag, count] : report["skipped_lines"].items())
     text << "skipped: " << count << " lines " << tag << "\n";
   if (report.contains("outliers")) {

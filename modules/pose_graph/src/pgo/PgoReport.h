@@ -4,7 +4,7 @@
 #include <string>
 
 #include "lamp/core/Csv.h"
-#include "lamp/pose_graph/G2oFile.h"
+#include "lamp/core/G2oFile.h"
 #include "lamp/pose_graph/Optimizer.h"
 
 namespace lamp {

@@ -21,8 +21,6 @@ Matrix6d covarianceToMrpt(const Pose3& pose, const Matrix6d& tangent);
  * are dense 32-bit numbers from 0 in node order. Only odometry and loop closures that are not
  * rejected are written; the first node of each component is fixed. */
 std::string toG2o(const PoseGraph& graph);
-/** The same with the ids that another program gave the nodes, in node order. */
-std::string toG2o(const PoseGraph& graph, const std::vector<uint64_t>& ids);
 
 /** The same graph in MRPT's text format: VERTEX3/EDGE3 with roll pitch yaw; a planar graph as
  * VERTEX_SE2/EDGE_SE2, since MRPT reads EDGE2 in g2o's order and not in TORO's. MRPT 2.5.8 itself
