@@ -161,6 +161,8 @@ class Builder {
       Landmark& landmark = result_.graph.landmarks()[edge.landmark];
       if (landmark.placed) continue;
       landmark.world_p = result_.graph.node(edge.from).world_T_base * edge.from_T_to.translation();
+      if (!landmark.world_p.allFinite())
+        refuse(file_.name, "the edges to landmark " + landmark.name + " lead beyond all numbers");
       landmark.placed = true;
     }
   }
