@@ -46,14 +46,20 @@ void writeTextFile(const std::string& path, const std::string& text) {
   writeBinaryFile(path, [&](std::ostream& file) { file << text; });
 }
 
-std::string readTextFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || std::filesystem::is_directory(path) ||
-      (file.peek() != EOF && !(text << file.rdbuf())))
+std::unique_ptr<std::istream> openedToRead(const std::string& path) {
+  auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
+  if (!*file || std::filesystem::is_directory(path))
     throw std::runtime_error(
         "cannot read '" + path + "': " +
         (std::filesystem::exists(path) ? "it is no readable file" : "there is no such file"));
+  return file;
+}
+
+std::string readTextFile(const std::string& path) {
+  const auto file = openedToRead(path);
+  std::ostringstream text;
+  if (file->peek() != EOF && !(text << file->rdbuf()))
+    throw std::runtime_error("cannot read '" + path + "': it is no readable file");
   return text.str();
 }
 

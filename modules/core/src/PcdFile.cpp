@@ -2,13 +2,13 @@
 
 #include <lzf.h>
 
+#include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
+#include <vector>
 
-#include "lamp/core/Csv.h"
+#include "CloudText.h"
+#include "lamp/core/Files.h"
 
 namespace lamp {
 
@@ -36,12 +36,16 @@ size_t numbersOf(const PcdField& field) {
 
 }  // namespace
 
-PcdFile::PcdFile(const std::string& path) : path_(path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read '" + path + "': there is no such file");
-  header_ = PcdHeader::read(file, path);
-  data_ = file.tellg();
-  data_bytes_ = static_cast<size_t>(std::filesystem::file_size(path)) - static_cast<size_t>(data_);
+PcdFile::PcdFile(const std::string& path) : PcdFile(openedToRead(path), path) {}
+
+PcdFile::PcdFile(std::unique_ptr<std::istream> file, std::string name)
+    : file_(std::move(file)),
+      name_(std::move(name)),
+      header_(PcdHeader::read(*file_, name_)),
+      data_(file_->tellg()) {
+  file_->clear();
+  file_->seekg(0, std::ios::end);
+  data_bytes_ = static_cast<size_t>(std::max<std::streamoff>(0, file_->tellg() - data_));
   checkSize();
 }
 
@@ -59,45 +63,39 @@ void PcdFile::checkSize() const {
 }
 
 void PcdFile::readXyz(const Take& take) const {
-  std::ifstream file(path_, std::ios::binary);
-  file.seekg(data_);
+  file_->clear();
+  file_->seekg(data_);
   switch (header_.data) {
     case PcdData::kAscii:
-      return readAscii(file, take);
+      return readAscii(take);
     case PcdData::kBinary:
-      return readBinary(file, take);
+      return readBinary(take);
     case PcdData::kBinaryCompressed:
-      return readCompressed(file, take);
+      return readCompressed(take);
   }
 }
 
-void PcdFile::readAscii(std::istream& file, const Take& take) const {
+void PcdFile::readAscii(const Take& take) const {
   const auto places = offsetsOf(header_, 1, numbersOf);
-  std::vector<std::string> words(header_.numbersPerPoint());
-  std::string line;
-  for (size_t i = 0, number = header_.lines + 1; i < header_.points; ++number) {
-    if (!std::getline(file, line))
+  const size_t expected = header_.numbersPerPoint();
+  CloudText text(*file_, name_, header_.lines);
+  std::vector<std::string> words;
+  for (size_t i = 0; i < header_.points; ++i) {
+    if (!text.next(words))
       fail("ends after " + std::to_string(i) + " of " + std::to_string(header_.points) + " points");
-    std::istringstream text(line);
-    if ((text >> std::ws).eof()) continue;
-    std::string rest;
-    bool good = true;
-    for (std::string& word : words) good = good && text >> word;
-    double xyz[3] = {};
-    for (int axis = 0; axis < 3; ++axis) good = good && parseDouble(words[places[axis]], xyz[axis]);
-    if (!good || text >> rest)
-      throw std::runtime_error(path_ + ":" + std::to_string(number) + ": is no point of " +
-                               std::to_string(words.size()) + " numbers");
+    if (words.size() != expected)
+      text.fail("is no point of " + std::to_string(expected) + " numbers");
+    double xyz[3];
+    for (int axis = 0; axis < 3; ++axis) xyz[axis] = text.number(words[places[axis]]);
     take(xyz);
-    ++i;
   }
 }
 
-void PcdFile::readBinary(std::istream& file, const Take& take) const {
+void PcdFile::readBinary(const Take& take) const {
   const auto offsets = offsetsOf(header_, 1, bytesOf);
   std::vector<char> point(header_.bytesPerPoint());
   for (size_t i = 0; i < header_.points; ++i) {
-    if (!file.read(point.data(), static_cast<std::streamsize>(point.size())))
+    if (!file_->read(point.data(), static_cast<std::streamsize>(point.size())))
       fail("cannot be read at point " + std::to_string(i + 1));
     double xyz[3];
     for (int axis = 0; axis < 3; ++axis)
@@ -107,10 +105,10 @@ void PcdFile::readBinary(std::istream& file, const Take& take) const {
 }
 
 /** All values of the first field come first, then all of the next one. */
-void PcdFile::readCompressed(std::istream& file, const Take& take) const {
+void PcdFile::readCompressed(const Take& take) const {
   if (header_.points == 0) return;
   const auto offsets = offsetsOf(header_, header_.points, bytesOf);
-  const std::string bytes = decompressed(file);
+  const std::string bytes = decompressed();
   for (size_t i = 0; i < header_.points; ++i) {
     double xyz[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -121,9 +119,9 @@ void PcdFile::readCompressed(std::istream& file, const Take& take) const {
   }
 }
 
-std::string PcdFile::decompressed(std::istream& file) const {
+std::string PcdFile::decompressed() const {
   uint32_t sizes[2] = {};  // compressed and not
-  if (!file.read(reinterpret_cast<char*>(sizes), sizeof sizes)) fail("ends before its points");
+  if (!file_->read(reinterpret_cast<char*>(sizes), sizeof sizes)) fail("ends before its points");
   if (sizes[0] > data_bytes_ - sizeof sizes)
     fail("ends within its points: they take " + std::to_string(sizes[0]) + " bytes, " +
          std::to_string(data_bytes_ - sizeof sizes) + " are there");
@@ -131,14 +129,14 @@ std::string PcdFile::decompressed(std::istream& file) const {
     fail("holds " + std::to_string(sizes[1]) + " bytes of points, its header announces " +
          std::to_string(header_.points * header_.bytesPerPoint()));
   std::string packed(sizes[0], '\0'), bytes(sizes[1], '\0');
-  file.read(packed.data(), static_cast<std::streamsize>(packed.size()));
-  if (!file || lzf_decompress(packed.data(), sizes[0], bytes.data(), sizes[1]) != sizes[1])
+  file_->read(packed.data(), static_cast<std::streamsize>(packed.size()));
+  if (!*file_ || lzf_decompress(packed.data(), sizes[0], bytes.data(), sizes[1]) != sizes[1])
     fail("has damaged points: they do not unpack");
   return bytes;
 }
 
 void PcdFile::fail(const std::string& what) const {
-  throw std::runtime_error("'" + path_ + "' " + what);
+  throw std::runtime_error("'" + name_ + "' " + what);
 }
 
 }  // namespace lamp

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <sstream>
-#include <stdexcept>
 
+#include "CloudText.h"
 #include "lamp/core/Csv.h"
 
 namespace lamp {
@@ -28,6 +28,14 @@ const std::map<std::string, PcdData> kData = {{"ascii", PcdData::kAscii},
 const std::array<std::string, 10> kKeywords = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                                "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
+/** What differs between them has defaults. */
+const std::array<std::string, 6> kVersions = {"0.5", ".5", "0.6", ".6", "0.7", ".7"};
+
+std::string lowerCase(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
 /** Beyond this a number of points or of a field's numbers is damage; products of a few stay below
  * 2^64. */
 constexpr double kMaxOfAnything = 1e9;
@@ -37,13 +45,14 @@ constexpr double kMaxOfAnything = 1e9;
 /** Collects the lines, each a keyword and its values, and then makes sense of them. */
 class PcdHeaderReader {
  public:
-  PcdHeaderReader(std::istream& file, const std::string& path) : file_(file), path_(path) {}
+  PcdHeaderReader(std::istream& file, const std::string& path) : text_(file, path) {}
 
   PcdHeader header() {
     readLines();
-    if (const auto& version = one("VERSION"); version != "0.7" && version != ".7")
-      fail("VERSION", "version '" + version + "' is not read, only 0.7");
-    header_.lines = line_;
+    if (has("VERSION") &&
+        std::find(kVersions.begin(), kVersions.end(), one("VERSION")) == kVersions.end())
+      fail("VERSION", "version '" + one("VERSION") + "' is not read, only 0.5 to 0.7");
+    header_.lines = text_.line();
     addFields();
     addPoints();
     addViewpoint();
@@ -62,26 +71,25 @@ class PcdHeaderReader {
   };
 
   void readLines() {
-    std::string text;
-    while (std::getline(file_, text)) {
-      ++line_;
-      std::istringstream words(text);
-      std::string keyword, value;
-      if (!(words >> keyword) || keyword[0] == '#') continue;
+    std::vector<std::string> words;
+    while (text_.next(words)) {
+      if (words[0][0] == '#') continue;
+      // The name of FIELDS before version 0.7.
+      const std::string keyword = words[0] == "COLUMNS" ? "FIELDS" : words[0];
       if (std::find(kKeywords.begin(), kKeywords.end(), keyword) == kKeywords.end())
-        failAt(line_, "is no line of a PCD header");
+        text_.fail("is no line of a PCD header");
       Line& line = lines_[keyword];
-      if (line.number != 0) failAt(line_, keyword + " is there twice");
-      line.number = line_;
-      while (words >> value) line.values.push_back(value);
+      if (line.number != 0) text_.fail(keyword + " is there twice");
+      line.number = text_.line();
+      line.values.assign(words.begin() + 1, words.end());
       if (keyword == "DATA") return;
     }
-    failAt(line_, "the file ends within its header");
+    text_.fail("the file ends within its header");
   }
 
   const std::vector<std::string>& all(const std::string& keyword) const {
     const auto found = lines_.find(keyword);
-    if (found == lines_.end()) failAt(line_, "the header has no " + keyword);
+    if (found == lines_.end()) text_.fail("the header has no " + keyword);
     return found->second.values;
   }
 
@@ -107,20 +115,24 @@ class PcdHeaderReader {
 
   void addFields() {
     const auto& names = all("FIELDS");
-    const auto &sizes = perField("SIZE"), &types = perField("TYPE");
     for (size_t i = 0; i < names.size(); ++i) {
-      const auto scalar = kScalars.find(sizes[i] + types[i]);
+      const std::string size = has("SIZE") ? perField("SIZE")[i] : "4";
+      const std::string type = has("TYPE") ? perField("TYPE")[i] : "F";
+      const auto scalar = kScalars.find(size + type);
       if (scalar == kScalars.end())
-        fail("TYPE", "there is no type " + types[i] + " of " + sizes[i] + " bytes");
+        fail(has("TYPE") ? "TYPE" : "SIZE", "there is no type " + type + " of " + size + " bytes");
       const size_t count = has("COUNT") ? number("COUNT", perField("COUNT")[i]) : 1;
       header_.fields.push_back({names[i], scalar->second, count});
     }
   }
 
   void addPoints() {
-    header_.points = number("WIDTH", one("WIDTH")) * number("HEIGHT", one("HEIGHT"));
+    const std::string width = has("WIDTH") || !has("POINTS") ? "WIDTH" : "POINTS";
+    header_.points =
+        number(width, one(width)) * (has("HEIGHT") ? number("HEIGHT", one("HEIGHT")) : 1);
     if (has("POINTS") && number("POINTS", one("POINTS")) != header_.points)
-      fail("POINTS", "is not WIDTH times HEIGHT");
+      fail("POINTS", "is not WIDTH times HEIGHT, " + std::to_string(header_.points) +
+                         ": correct whichever is wrong");
   }
 
   void addViewpoint() {
@@ -134,8 +146,9 @@ class PcdHeaderReader {
 
   size_t placeOf(const std::string& name) const {
     const auto& fields = header_.fields;
-    const auto found = std::find_if(fields.begin(), fields.end(),
-                                    [&](const PcdField& field) { return field.name == name; });
+    const auto found = std::find_if(fields.begin(), fields.end(), [&](const PcdField& field) {
+      return lowerCase(field.name) == name;
+    });
     if (found == fields.end()) fail("FIELDS", "the points have no '" + name + "'");
     if (found->count != 1) fail("COUNT", "'" + name + "' must be one number");
     return static_cast<size_t>(found - fields.begin());
@@ -144,15 +157,10 @@ class PcdHeaderReader {
   bool has(const std::string& keyword) const { return lines_.count(keyword) != 0; }
 
   [[noreturn]] void fail(const std::string& keyword, const std::string& what) const {
-    failAt(lines_.at(keyword).number, keyword + ": " + what);
-  }
-  [[noreturn]] void failAt(size_t line, const std::string& what) const {
-    throw std::runtime_error(path_ + ":" + std::to_string(line) + ": " + what);
+    text_.failAt(lines_.at(keyword).number, keyword + ": " + what);
   }
 
-  std::istream& file_;
-  const std::string& path_;
-  size_t line_ = 0;
+  CloudText text_;
   std::map<std::string, Line> lines_;
   PcdHeader header_;
 };

@@ -21,7 +21,7 @@ struct PcdField {
   size_t bytes() const { return scalar.size * count; }
 };
 
-/** The header of a PCD file, version 0.7. */
+/** The header of a PCD file. */
 struct PcdHeader {
   std::vector<PcdField> fields;
   size_t points = 0;

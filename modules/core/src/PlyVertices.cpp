@@ -1,144 +1,205 @@
 #include "lamp/core/PlyVertices.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <stdexcept>
 
-#include "Scalar.h"
-#include "lamp/core/Csv.h"
+#include "CloudText.h"
+#include "PlyHeader.h"
+#include "lamp/core/Files.h"
 
 namespace lamp {
 
 namespace {
 
-/** PLY has an old and a new name for each type. */
-const std::map<std::string, Scalar> kScalars = {
-    {"char", Scalar::of<int8_t>()},     {"int8", Scalar::of<int8_t>()},
-    {"uchar", Scalar::of<uint8_t>()},   {"uint8", Scalar::of<uint8_t>()},
-    {"short", Scalar::of<int16_t>()},   {"int16", Scalar::of<int16_t>()},
-    {"ushort", Scalar::of<uint16_t>()}, {"uint16", Scalar::of<uint16_t>()},
-    {"int", Scalar::of<int32_t>()},     {"int32", Scalar::of<int32_t>()},
-    {"uint", Scalar::of<uint32_t>()},   {"uint32", Scalar::of<uint32_t>()},
-    {"float", Scalar::of<float>()},     {"float32", Scalar::of<float>()},
-    {"double", Scalar::of<double>()},   {"float64", Scalar::of<double>()}};
+bool isSameName(const std::string& a, const std::string& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
+/** Reads the elements of a file one after the other, value by value. */
+class PlyElements {
+ public:
+  virtual ~PlyElements() = default;
+  /** The next element's values, of lists 0. \return false at the end of the file. */
+  virtual bool read(const PlyElement& element, std::vector<double>& values) = 0;
+  virtual std::string place() const { return ""; }
+};
+
+/** One element a line. */
+class AsciiElements : public PlyElements {
+ public:
+  AsciiElements(std::istream& file, const std::string& name, size_t header_lines)
+      : text_(file, name, header_lines) {}
+
+  bool read(const PlyElement& element, std::vector<double>& values) override {
+    if (!text_.next(words_)) return false;
+    values.clear();
+    size_t next = 0;
+    for (const PlyProperty& property : element.properties) {
+      const double value = number(next++);
+      values.push_back(property.length ? 0 : value);
+      if (!property.length) continue;
+      if (!(value >= 0 && value <= static_cast<double>(words_.size() - next)))
+        text_.fail("the line ends within a list");
+      next += static_cast<size_t>(value);
+    }
+    if (next < words_.size())
+      text_.fail("has " + std::to_string(words_.size()) + " values instead of " +
+                 std::to_string(next) + " of a " + element.name);
+    return true;
+  }
+  std::string place() const override { return " in line " + std::to_string(text_.line()); }
+
+ private:
+  double number(size_t place) const {
+    if (place >= words_.size()) text_.fail("has only " + std::to_string(words_.size()) + " values");
+    return text_.number(words_[place]);
+  }
+
+  CloudText text_;
+  std::vector<std::string> words_;
+};
+
+class BinaryElements : public PlyElements {
+ public:
+  BinaryElements(std::istream& file, bool big_endian) : file_(file), big_endian_(big_endian) {}
+
+  bool read(const PlyElement& element, std::vector<double>& values) override {
+    values.clear();
+    return element.hasLists() ? readOneByOne(element, values) : readAtOnce(element, values);
+  }
+
+ private:
+  bool readAtOnce(const PlyElement& element, std::vector<double>& values) {
+    bytes_.resize(element.bytes());
+    if (!file_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size()))) return false;
+    const char* next = bytes_.data();
+    for (const PlyProperty& property : element.properties) {
+      values.push_back(valueOf(property.scalar, next));
+      next += property.scalar.size;
+    }
+    return true;
+  }
+
+  bool readOneByOne(const PlyElement& element, std::vector<double>& values) {
+    for (const PlyProperty& property : element.properties) {
+      const Scalar& scalar = property.length ? *property.length : property.scalar;
+      char bytes[sizeof(double)];
+      if (!file_.read(bytes, static_cast<std::streamsize>(scalar.size))) return false;
+      const double value = valueOf(scalar, bytes);
+      values.push_back(property.length ? 0 : value);
+      if (property.length && !skip(value, property.scalar.size)) return false;
+    }
+    return true;
+  }
+
+  double valueOf(const Scalar& scalar, const char* bytes) const {
+    return big_endian_ ? scalar.bigEndian(bytes) : scalar.value(bytes);
+  }
+
+  bool skip(double count, size_t size) {
+    if (!(count >= 0 && count < 1e9)) return false;
+    file_.ignore(static_cast<std::streamsize>(count) * static_cast<std::streamsize>(size));
+    return !file_.eof();
+  }
+
+  std::istream& file_;
+  const bool big_endian_;
+  std::vector<char> bytes_;
+};
+
+std::unique_ptr<PlyElements> elementsOf(std::istream& file, const std::string& name,
+                                        const PlyHeader& header) {
+  if (header.data == PlyData::kAscii)
+    return std::make_unique<AsciiElements>(file, name, header.lines);
+  return std::make_unique<BinaryElements>(file, header.data == PlyData::kBigEndian);
+}
 
 }  // namespace
 
-PlyVertices::PlyVertices(const std::string& path) : path_(path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error("cannot read '" + path + "': there is no such file");
-  readHeader(file);
-  data_ = file.tellg();
+PlyVertices::PlyVertices(const std::string& path) : PlyVertices(openedToRead(path), path) {}
+
+PlyVertices::PlyVertices(std::unique_ptr<std::istream> file, std::string name)
+    : file_(std::move(file)),
+      name_(std::move(name)),
+      header_(std::make_unique<const PlyHeader>(PlyHeader::read(*file_, name_))),
+      data_(file_->tellg()) {
   checkSize();
 }
 
+PlyVertices::~PlyVertices() = default;
+
 /** A damaged header may announce more vertices than any memory has room for. */
 void PlyVertices::checkSize() const {
-  const size_t least_bytes = binary_ ? stride_ : 2 * properties_.size();
-  const size_t there = std::filesystem::file_size(path_) - static_cast<size_t>(data_) + 1;
-  if (count_ > there / least_bytes)
-    fail("is too short for the " + std::to_string(count_) + " vertices that its header announces");
+  const PlyElement& vertex = header_->vertex();
+  const size_t least_bytes =
+      header_->data == PlyData::kAscii ? 2 * vertex.properties.size() : vertex.bytes();
+  file_->clear();
+  file_->seekg(0, std::ios::end);
+  // The last line of a text may lack its end; an empty file has no place to go on from.
+  const auto there = static_cast<size_t>(std::max<std::streamoff>(0, file_->tellg() - data_)) + 1;
+  if (vertex.count > there / least_bytes)
+    fail("is too short for the " + std::to_string(vertex.count) +
+         " vertices that its header announces");
 }
 
-void PlyVertices::readHeader(std::istream& file) {
-  std::string line, element;
-  if (!std::getline(file, line) || line.substr(0, 3) != "ply") fail("is no PLY file");
-  while (std::getline(file, line)) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line == "end_header") {
-      if (properties_.empty()) fail("has no vertices");
-      return;
-    }
-    takeHeaderLine(line, element);
-  }
-  fail("ends within its header");
-}
-
-void PlyVertices::takeHeaderLine(const std::string& line, std::string& element) {
-  std::istringstream words(line);
-  std::string keyword, first, second;
-  words >> keyword >> first >> second;
-  if (keyword == "format") {
-    binary_ = first == "binary_little_endian";
-    if (!binary_ && first != "ascii") fail("has the format '" + first + "', which is not read");
-  } else if (keyword == "element") {
-    if (first == "vertex") {
-      double count = 0;
-      if (!element.empty()) fail("has elements before its vertices");
-      if (!parseDouble(second, count) || !(count >= 0 && count < 1e15))
-        fail("has no number of vertices");
-      count_ = static_cast<size_t>(count);
-    }
-    element = first;
-  } else if (keyword == "property" && element == "vertex") {
-    addProperty(first, second);
-  }
-}
-
-void PlyVertices::addProperty(const std::string& type, const std::string& name) {
-  const auto scalar = kScalars.find(type);
-  if (scalar == kScalars.end()) fail("has vertices with a property of type '" + type + "'");
-  properties_.push_back({name, stride_, scalar->second.value});
-  stride_ += scalar->second.size;
+size_t PlyVertices::count() const {
+  return header_->vertex().count;
 }
 
 bool PlyVertices::has(const std::string& property) const {
-  return std::any_of(properties_.begin(), properties_.end(),
-                     [&](const Property& p) { return p.name == property; });
+  const auto& properties = header_->vertex().properties;
+  return std::any_of(properties.begin(), properties.end(), [&](const PlyProperty& p) {
+    return !p.length && isSameName(p.name, property);
+  });
 }
 
 std::vector<size_t> PlyVertices::placesOf(const std::vector<std::string>& properties) const {
+  const auto& all = header_->vertex().properties;
   std::vector<size_t> places;
   for (const std::string& name : properties) {
-    const auto found = std::find_if(properties_.begin(), properties_.end(),
-                                    [&](const Property& p) { return p.name == name; });
-    if (found == properties_.end()) fail("has vertices without '" + name + "'");
-    places.push_back(static_cast<size_t>(found - properties_.begin()));
+    const auto found = std::find_if(all.begin(), all.end(), [&](const PlyProperty& p) {
+      return !p.length && isSameName(p.name, name);
+    });
+    if (found == all.end()) fail("has vertices without '" + name + "'");
+    places.push_back(static_cast<size_t>(found - all.begin()));
   }
   return places;
-}
-
-bool PlyVertices::readVertex(std::istream& file, std::vector<double>& values) const {
-  if (binary_) {
-    thread_local std::vector<char> bytes;
-    bytes.resize(stride_);
-    if (!file.read(bytes.data(), static_cast<std::streamsize>(stride_))) return false;
-    for (size_t i = 0; i < values.size(); ++i)
-      values[i] = properties_[i].value(bytes.data() + properties_[i].offset);
-    return true;
-  }
-  std::string word;
-  for (double& value : values)
-    if (!(file >> word) || !parseDouble(word, value)) return false;
-  return true;
 }
 
 void PlyVertices::read(const std::vector<std::string>& properties,
                        const std::function<void(const double*)>& take, NotFinite not_finite) const {
   const std::vector<size_t> places = placesOf(properties);
-  std::ifstream file(path_, std::ios::binary);
-  file.seekg(data_);
-  std::vector<double> values(properties_.size()), taken(places.size());
-  for (size_t i = 0; i < count_; ++i) {
-    if (!readVertex(file, values))
-      fail("ends or is malformed at vertex " + std::to_string(i + 1) + " of " +
-           std::to_string(count_));
+  file_->clear();
+  file_->seekg(data_);
+  const auto elements = elementsOf(*file_, name_, *header_);
+  std::vector<double> values, taken(places.size());
+  const auto next = [&](const PlyElement& element, size_t i) {
+    if (!elements->read(element, values))
+      fail("ends or is malformed at " + element.name + " " + std::to_string(i + 1) + " of " +
+           std::to_string(element.count));
+  };
+  for (size_t e = 0; e < header_->vertices; ++e) {
+    const PlyElement& element = header_->elements[e];
+    for (size_t i = 0; i < element.count && !element.properties.empty(); ++i) next(element, i);
+  }
+  for (size_t i = 0; i < count(); ++i) {
+    next(header_->vertex(), i);
     for (size_t k = 0; k < places.size(); ++k) {
       taken[k] = values[places[k]];
       if (not_finite == NotFinite::kRefuse && !std::isfinite(taken[k]))
-        fail("has a value that is not finite in vertex " + std::to_string(i + 1));
+        fail("has a value that is not finite in vertex " + std::to_string(i + 1) +
+             elements->place());
     }
     take(taken.data());
   }
 }
 
 void PlyVertices::fail(const std::string& what) const {
-  throw std::runtime_error("'" + path_ + "' " + what);
+  throw std::runtime_error("'" + name_ + "' " + what);
 }
 
 }  // namespace lamp

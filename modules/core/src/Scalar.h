@@ -1,14 +1,16 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 
 namespace lamp {
 
-/** How a file of points stores one number, little-endian. */
+/** How a file of points stores one number. */
 struct Scalar {
   size_t size = 0;                         ///< bytes
-  double (*value)(const char*) = nullptr;  ///< from the bytes
+  double (*value)(const char*) = nullptr;  ///< from the bytes, little-endian
 
   template <class T>
   static constexpr Scalar of() {
@@ -17,6 +19,12 @@ struct Scalar {
               std::memcpy(&value, bytes, sizeof value);
               return static_cast<double>(value);
             }};
+  }
+
+  double bigEndian(const char* bytes) const {
+    std::array<char, sizeof(double)> reversed{};
+    std::reverse_copy(bytes, bytes + size, reversed.begin());
+    return value(reversed.data());
   }
 };
 

@@ -8,8 +8,10 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "TestSupport.h"
+#include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 
 namespace lamp {
@@ -91,7 +93,8 @@ TEST_P(CloudOfPcl, ReadsBack) {
   const auto cloud = someCloud(2000);
   const CloudPoints read = readBack(cloud);
   EXPECT_EQ(read.not_finite, 0u);
-  EXPECT_EQ(read.viewpoint, Eigen::Vector3d::Zero());
+  EXPECT_EQ(read.viewpoint.value(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(read.offset, Eigen::Vector3d::Zero());
   ASSERT_EQ(read.points.size(), cloud.size());
   for (size_t i = 0; i < cloud.size(); ++i)
     EXPECT_NEAR(distanceTo(cloud[i], read.points[i]), 0, 1e-4) << i;
@@ -165,22 +168,25 @@ std::string errorOf(const std::string& content) {
 
 TEST(CloudFile, FieldsOfSeveralNumbersAndTheViewpoint) {
   const CloudPoints cloud = readPcd(pcdWith("", ""));
-  EXPECT_EQ(cloud.viewpoint, Eigen::Vector3d(0.5, -1, 2));
+  EXPECT_EQ(cloud.viewpoint.value(), Eigen::Vector3d(0.5, -1, 2));
   EXPECT_THAT(cloud.points,
               testing::ElementsAre(Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6)));
 }
 
 TEST(CloudFile, LinesOfAHeaderMayBeLeftOutWhereTheyHaveADefault) {
-  EXPECT_EQ(readPcd(pcdWith("VIEWPOINT 0.5 -1 2 1 0 0 0\n", "")).viewpoint,
+  EXPECT_EQ(readPcd(pcdWith("VIEWPOINT 0.5 -1 2 1 0 0 0\n", "")).viewpoint.value(),
             Eigen::Vector3d::Zero());
   EXPECT_EQ(readPcd(pcdWith("POINTS 2\n", "")).points.size(), 2u);
   EXPECT_EQ(readPcd(pcdWith("COUNT 1 3 1 1\n", "", "1 0 2 3\n4 0 5 6\n")).points.size(), 2u);
   EXPECT_EQ(readPcd(pcdWith("VERSION 0.7", "VERSION .7")).points.size(), 2u);
+  EXPECT_EQ(readPcd(pcdWith("VERSION 0.7", "VERSION 0.5")).points.size(), 2u);
+  EXPECT_EQ(readPcd(pcdWith("VERSION 0.7\n", "")).points.size(), 2u);
+  EXPECT_EQ(readPcd(pcdWith("WIDTH 2\nHEIGHT 1\n", "")).points.size(), 2u);
+  EXPECT_EQ(readPcd(pcdWith("x pad y z", "X pad Y Z")).points.size(), 2u);
 }
 
 TEST(CloudFile, WrongPcdHeadersNameTheLine) {
-  EXPECT_THAT(errorOf(pcdWith("VERSION 0.7", "VERSION 0.5")), HasSubstr("t.pcd:2: VERSION"));
-  EXPECT_THAT(errorOf(pcdWith("VERSION 0.7\n", "")), HasSubstr("no VERSION"));
+  EXPECT_THAT(errorOf(pcdWith("VERSION 0.7", "VERSION 1.0")), HasSubstr("t.pcd:2: VERSION"));
   EXPECT_THAT(errorOf(pcdWith("x pad y z", "x pad y i")), HasSubstr("t.pcd:3: FIELDS"));
   EXPECT_THAT(errorOf(pcdWith("4 2 8 4", "4 2 8")), HasSubstr("t.pcd:4: SIZE"));
   EXPECT_THAT(errorOf(pcdWith("4 2 8 4", "4 2 8 2")), HasSubstr("t.pcd:5: TYPE"));
@@ -204,6 +210,67 @@ TEST(CloudFile, WrongPcdPointsNameTheLine) {
   EXPECT_THAT(errorOf(pcdWith("", "", "1 0 0 0 2 3 7\n4 0 0 0 5 6\n")), HasSubstr("t.pcd:12:"));
   EXPECT_THAT(errorOf(pcdWith("", "", "1 0 0 0 2 3.00000000000000000\n")),
               HasSubstr("ends after 1 of 2 points"));
+}
+
+TEST(CloudFile, DecimalCommasAreErrorsWithACure) {
+  EXPECT_THAT(errorOf(pcdWith("", "", "1,5 0 0 0 2 3\n4 0 0 0 5 6\n")),
+              AllOf(HasSubstr("t.pcd:12: '1,5'"), HasSubstr("decimal point")));
+}
+
+/** Points around a place, as text or doubles keep them. */
+std::string pcdAround(const Eigen::Vector3d& place, bool as_float) {
+  std::string text = "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 50\nHEIGHT 1\nDATA ascii\n";
+  Random random;
+  for (int i = 0; i < 50; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double value = place[axis] + random.uniform(-10, 10);
+      text += formatDouble(as_float ? static_cast<double>(static_cast<float>(value)) : value) + " ";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(CloudFile, SurveyCoordinatesKeepTheirMillimetres) {
+  const Eigen::Vector3d utm(431200.25, 5412345.5, 312);
+  const CloudPoints near = readPcd(pcdAround(Eigen::Vector3d::Zero(), false));
+  const CloudPoints far = readPcd(pcdAround(utm, false));
+  EXPECT_EQ(far.offset, Eigen::Vector3d(431200, 5412300, 300));
+  EXPECT_EQ(far.rounded_to_m, 0);
+  EXPECT_FALSE(far.viewpoint.has_value()) << "the origin is 5000 km away";
+  ASSERT_EQ(far.points.size(), near.points.size());
+  for (size_t i = 0; i < far.points.size(); ++i) {
+    const Eigen::Vector3d place = far.points[i].cast<double>() + far.offset;
+    EXPECT_LT((place - utm - near.points[i].cast<double>()).norm(), 1e-4) << i;
+  }
+}
+
+TEST(CloudFile, CoordinatesThatFloatsHaveRoundedAreKnown) {
+  const Eigen::Vector3d utm(431200.25, 5412345.5, 312), grid(43120.25, 1234.5, 312);
+  EXPECT_EQ(readPcd(pcdAround(utm, true)).rounded_to_m, 0.5);
+  EXPECT_EQ(readPcd(pcdAround(grid, true)).rounded_to_m, 1.0 / 256);
+  EXPECT_EQ(readPcd(pcdAround(Eigen::Vector3d::Zero(), true)).rounded_to_m, 0);
+}
+
+TEST(CloudFile, AViewpointInSurveyCoordinatesMovesWithThePoints) {
+  std::string text = pcdAround({431200.25, 5412345.5, 312}, false);
+  text.insert(text.find("DATA"), "VIEWPOINT 431201 5412346 313 1 0 0 0\n");
+  EXPECT_EQ(readPcd(text).viewpoint.value(), Eigen::Vector3d(1, 46, 13));
+}
+
+TEST(CloudFile, RaysWithoutReturnAreNoPoints) {
+  const CloudPoints cloud = readPcd(pcdWith("", "", "0 0 0 0 0 0\n4 0 0 0 5 6\n"));
+  EXPECT_EQ(cloud.points.size(), 1u);
+  EXPECT_EQ(cloud.no_return, 1u);
+}
+
+TEST(CloudFile, IsReadFromAnyStream) {
+  const auto from = [](const std::string& text, CloudKind kind) {
+    return readCloudPoints(std::make_unique<std::istringstream>(text), kind, "memory");
+  };
+  EXPECT_EQ(from(pcdWith("", ""), CloudKind::kPcd).points.size(), 2u);
+  EXPECT_THAT(thrownBy([&] { from(pcdWith("", ""), CloudKind::kPly); }),
+              HasSubstr("memory:1: is no PLY file"));
 }
 
 TEST(CloudFile, CountsThatTheFileHasNoRoomForAreErrors) {

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <istream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,16 +11,28 @@ namespace lamp {
 
 /** The points of a file, and what it says of them. */
 struct CloudPoints {
-  std::vector<Eigen::Vector3f> points;  ///< in the frame of the file, metres
-  size_t not_finite = 0;                ///< points left out, since a coordinate was no number
-  /** Where the sensor stood, in the same frame: a PCD file's VIEWPOINT. */
-  Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3f> points;  ///< in the frame of the file less the offset, metres
+  /** What was taken from the coordinates, as doubles, before they became floats. Zero, but for
+   * points in a national grid or UTM, which floats would round to centimetres or worse. */
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  size_t not_finite = 0;  ///< points left out, since a coordinate was no number
+  size_t no_return = 0;   ///< points left out at 0 0 0: what lidars write for rays without a return
+  /** Where the sensor stood, in the frame of the points: a PCD file's VIEWPOINT, else the origin.
+   * None if that is far from the points: nobody has told. */
+  std::optional<Eigen::Vector3d> viewpoint;
+  /** To what the coordinates had been rounded before they came here, metres: large coordinates have
+   * been floats. 0 if that is nothing to think of. */
+  double rounded_to_m = 0;
 };
 
-/** Reads `x y z` of a PLY or PCD file, whichever its name ends in; other fields are skipped. Not
- * read: big-endian PLY, PCD before 0.7.
+enum class CloudKind { kPcd, kPly };
+
+/** Reads `x y z` of a PLY or PCD file, whichever its name ends in; other fields are skipped.
  * \throws std::runtime_error naming the file, and the line in its text, if it cannot be read, is
  *    damaged, or has no point with finite coordinates. */
 CloudPoints readCloudPoints(const std::string& path);
+/** \param file can be sought in; \param name of the file, for messages. */
+CloudPoints readCloudPoints(std::unique_ptr<std::istream> file, CloudKind kind,
+                            const std::string& name);
 
 }  // namespace lamp

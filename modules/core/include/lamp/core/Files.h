@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <istream>
+#include <memory>
 #include <ostream>
 #include <string>
 
@@ -17,6 +19,9 @@ void writeBinaryFile(const std::string& path, const std::function<void(std::ostr
 
 /** Writes text with writeAtomically(). */
 void writeTextFile(const std::string& path, const std::string& text);
+
+/** A binary file to read from. \throws std::runtime_error naming the path. */
+std::unique_ptr<std::istream> openedToRead(const std::string& path);
 
 /** \throws std::runtime_error naming the path. */
 std::string readTextFile(const std::string& path);
