@@ -45,7 +45,7 @@ OverlapScan::OverlapScan(const std::vector<Vector3f>& points, bool planar)
       tree_(points_),
       min_(Vector3f::Zero()),
       max_(Vector3f::Zero()) {
-  normals_ = surfaceNormals(points_, tree_, kNormalNeighbors, planar);
+  normals_ = fitPlanes(points_, tree_, kNormalNeighbors, planar).normals;
   if (points_.empty()) return;
   min_ = max_ = points_.front();
   for (const Vector3f& p : points_) {

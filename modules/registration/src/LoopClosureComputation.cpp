@@ -78,8 +78,11 @@ LoopClosureComputation::Followed LoopClosureComputation::refineAndVerify(
                         attempt.result.scores.end());
   followed.steps = 1;
   attempt.stage = refiner_->getLoggerName();
-  attempt.reason = attempt.result.converged ? "" : "did not converge";
-  if (!attempt.result.converged) return followed;
+  if (!attempt.result.converged)
+    attempt.reason = "did not converge";
+  else if (attempt.result.information.isZero())
+    attempt.reason = "no surface in common that holds the pose";
+  if (!attempt.reason.empty()) return followed;
   for (const auto& verifier : verifiers_) {
     ++followed.steps;
     const Verification verification = verifier->verify(attempt.result, source, target, guess);

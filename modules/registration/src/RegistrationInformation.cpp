@@ -81,31 +81,34 @@ void RegistrationInformationOptions::visit(OptionVisitor& v) {
     kPositive);
 }
 
-RegistrationInformation registrationInformation(const IcpResult& icp,
+RegistrationInformation registrationInformation(const MatchedSurface& surface,
+                                                const Pose3& target_T_source,
                                                 const RegistrationInformationOptions& options,
                                                 bool planar) {
   RegistrationInformation result;
-  if (!(icp.weights > 0) || !(icp.radius_m > 0)) return result;
-  result.observability = observability(icp.information, icp.weights, icp.radius_m);
+  if (!(surface.weights > 0) || !(surface.radius_m > 0)) return result;
+  result.observability = observability(surface.information, surface.weights, surface.radius_m);
   // Rotations as lengths at the radius: only so can the six directions be compared.
   Vector6d scale = Vector6d::Ones();
-  scale.tail<3>() /= icp.radius_m;
-  const Matrix6d scaled = scale.asDiagonal() * icp.information * scale.asDiagonal() / icp.weights;
+  scale.tail<3>() /= surface.radius_m;
+  const Matrix6d scaled =
+      scale.asDiagonal() * surface.information * scale.asDiagonal() / surface.weights;
   const WeakMotions weak(scaled, result.observability, options, planar);
   const MatrixXd Q = weak.observed();
   for (const std::string& name : weak.names()) result.unobserved.push_back(name);
   if (Q.cols() == 0) return result;
 
-  const double variance = options.sigma_m * options.sigma_m + icp.residual_m * icp.residual_m;
+  const double variance =
+      options.sigma_m * options.sigma_m + surface.residual_m * surface.residual_m;
   const double common = options.common_share * options.common_share * variance;
-  const MatrixXd A = Q.transpose() * scaled * Q * icp.patches / variance;
+  const MatrixXd A = Q.transpose() * scaled * Q * surface.patches / variance;
   const MatrixXd covariance = A.completeOrthogonalDecomposition().pseudoInverse() +
                               common * MatrixXd::Identity(Q.cols(), Q.cols());
   const Matrix6d about_pivot = Q * covariance.inverse() * Q.transpose();
   // Back from lengths to radians, and from the pivot to the tangent space at the pose.
   Matrix6d to_scaled = Matrix6d::Identity();
-  to_scaled.bottomRightCorner<3, 3>() *= icp.radius_m;
-  const Matrix6d J = to_scaled * adjoint(Eigen::Translation3d(-icp.pivot) * icp.target_T_source);
+  to_scaled.bottomRightCorner<3, 3>() *= surface.radius_m;
+  const Matrix6d J = to_scaled * adjoint(Eigen::Translation3d(-surface.pivot) * target_T_source);
   result.information = J.transpose() * about_pivot * J;
   result.information = 0.5 * (result.information + result.information.transpose()).eval();
   return result;

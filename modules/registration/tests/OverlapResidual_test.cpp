@@ -42,7 +42,7 @@ TEST(OverlapResidual, MeasuresOverlapAndResidual) {
   EXPECT_EQ(verification.scores[0].threshold, options.min_overlap);
   EXPECT_EQ(verification.scores[1].name, "residual_m");
   EXPECT_NEAR(verification.scores[1].value, 0.05, 1e-6);
-  EXPECT_EQ(verification.scores[1].threshold, options.max_residual_m);
+  EXPECT_NEAR(verification.scores[1].threshold.value(), options.max_residual_m, 1e-6);
 }
 
 TEST(OverlapResidual, RefusesLittleOverlapFromTheThresholdOn) {
@@ -64,6 +64,24 @@ TEST(OverlapResidual, RefusesALargeResidualFromTheThresholdOn) {
   EXPECT_TRUE(verify(options, scans).accepted());
   options.max_residual_m = 0.049;
   EXPECT_EQ(verify(options, scans).refusal, "high residual");
+}
+
+TEST(OverlapResidual, HonestNoiseIsNoMisfit) {
+  constexpr float kNoise_m = 0.1f;
+  OverlapResidual verifier;
+  verifier.options.max_residual_m = 0.06;
+  const auto noisy = prepareScan(roomPoints(3000, kNoise_m, 1), 10, false);
+  const auto again = prepareScan(roomPoints(3000, kNoise_m, 2), 10, false);
+  const Verification right = verifier.verify({}, *again, *noisy, {});
+  EXPECT_GT(right.scores[1].value, verifier.options.max_residual_m)
+      << "the noise alone is more than a clean scan may be off";
+  EXPECT_TRUE(right.accepted()) << right.refusal;
+
+  const auto clean = prepareScan(roomPoints(3000, 0.005f, 1), 10, false);
+  const auto lifted = prepareScan(roomPoints(3000, 0.005f, 2), 10, false);
+  RegistrationResult off;
+  off.target_T_source.translation() = Eigen::Vector3d(0.15, 0.15, 0.15);
+  EXPECT_EQ(verifier.verify(off, *lifted, *clean, {}).refusal, "high residual");
 }
 
 TEST(OverlapResidual, LooksForPartnersWithinItsDistanceOnly) {

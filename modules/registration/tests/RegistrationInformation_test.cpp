@@ -18,9 +18,10 @@ struct Surface {
   Points points, normals;
 };
 
-/** What an ICP says that has matched all points of a surface, about the pivot. */
-IcpResult icpOn(const Surface& surface, const Eigen::Vector3d& pivot = Eigen::Vector3d::Zero()) {
-  IcpResult result;
+/** All points of a surface, matched, about the pivot. */
+MatchedSurface matched(const Surface& surface,
+                       const Eigen::Vector3d& pivot = Eigen::Vector3d::Zero()) {
+  MatchedSurface result;
   double squares = 0;
   for (size_t i = 0; i < surface.points.size(); ++i) {
     const Eigen::Vector3d lever = surface.points[i].cast<double>();
@@ -67,28 +68,32 @@ Surface room() {
 
 TEST(RegistrationInformation, IsTheInverseOfTheModelsCovarianceWhereAllIsObserved) {
   RegistrationInformationOptions options;
-  const IcpResult icp = icpOn(room());
-  const RegistrationInformation known = registrationInformation(icp, options, false);
+  const MatchedSurface surface = matched(room());
+  const RegistrationInformation known =
+      registrationInformation(surface, Pose3::Identity(), options, false);
   EXPECT_TRUE(known.unobserved.empty());
   const double variance = 0.04 * 0.04 + options.sigma_m * options.sigma_m;
-  Matrix6d expected = variance * (icp.information * icp.patches / icp.weights).inverse();
+  Matrix6d expected =
+      variance * (surface.information * surface.patches / surface.weights).inverse();
   const double common = options.common_share * options.common_share * variance;
   expected.diagonal().head<3>().array() += common;
-  expected.diagonal().tail<3>().array() += common / (icp.radius_m * icp.radius_m);
+  expected.diagonal().tail<3>().array() += common / (surface.radius_m * surface.radius_m);
   EXPECT_LT((known.information.inverse() - expected).norm(), 1e-9 * expected.norm());
 }
 
 TEST(RegistrationInformation, BelongsToTheTangentSpaceAtThePose) {
   // Points that were at `lever` about the pivot are elsewhere in the source's frame.
-  IcpResult icp = icpOn(room(), {3, -2, 1});
-  icp.target_T_source = expSE3(tangent(1, 2, 0.5, 0.3, -0.2, 1.2));
-  const Matrix6d information = registrationInformation(icp, {}, false).information;
+  const MatchedSurface surface = matched(room(), {3, -2, 1});
+  const Pose3 target_T_source = expSE3(tangent(1, 2, 0.5, 0.3, -0.2, 1.2));
+  const Matrix6d information =
+      registrationInformation(surface, target_T_source, {}, false).information;
   // A motion about the pivot, seen from the source: T Exp(d) = P Exp(m) P^-1 T.
-  const Pose3 P = Pose3(Eigen::Translation3d(icp.pivot));
-  const Matrix6d about_pivot = registrationInformation(icpOn(room()), {}, false).information;
+  const Pose3 P = Pose3(Eigen::Translation3d(surface.pivot));
+  const Matrix6d about_pivot =
+      registrationInformation(matched(room()), Pose3::Identity(), {}, false).information;
   const Vector6d d = 1e-4 * tangent(1, -2, 3, 0.4, 0.5, -0.6);
   const Vector6d m =
-      logSE3(P.inverse() * icp.target_T_source * expSE3(d) * icp.target_T_source.inverse() * P);
+      logSE3(P.inverse() * target_T_source * expSE3(d) * target_T_source.inverse() * P);
   const double expected = m.dot(about_pivot * m);
   EXPECT_NEAR(d.dot(information * d), expected, 1e-3 * expected);
 }
@@ -98,7 +103,7 @@ TEST(RegistrationInformation, KnowsNothingAlongATunnelAndSaysSo) {
        {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(1, 2, -1)}) {
     const Eigen::Vector3d along = axis.normalized().cast<double>();
     const RegistrationInformation known =
-        registrationInformation(icpOn(tunnel(axis.normalized())), {}, false);
+        registrationInformation(matched(tunnel(axis.normalized())), Pose3::Identity(), {}, false);
     ASSERT_EQ(known.unobserved.size(), 1u);
     EXPECT_THAT(known.unobserved[0], HasSubstr("translation along"));
     Vector6d slide = Vector6d::Zero();
@@ -118,7 +123,8 @@ TEST(RegistrationInformation, APlaneKnowsItsHeightAndItsTilt) {
       plane.points.emplace_back(x, y, 0);
       plane.normals.emplace_back(0, 0, 1);
     }
-  const RegistrationInformation known = registrationInformation(icpOn(plane), {}, false);
+  const RegistrationInformation known =
+      registrationInformation(matched(plane), Pose3::Identity(), {}, false);
   EXPECT_EQ(known.unobserved.size(), 3u);
   const Vector6d diagonal = known.information.diagonal();
   for (const int axis : {0, 1, 5}) EXPECT_NEAR(diagonal[axis], 0, 1e-9);
@@ -137,27 +143,31 @@ TEST(RegistrationInformation, InThePlaneOnlyItsOwnAxesAreMissed) {
     hall.points.emplace_back(5, y, 0);
     hall.normals.emplace_back(1, 0, 0);
   }
-  const RegistrationInformation along = registrationInformation(icpOn(corridor), {}, true);
+  const RegistrationInformation along =
+      registrationInformation(matched(corridor), Pose3::Identity(), {}, true);
   ASSERT_EQ(along.unobserved.size(), 1u);
   EXPECT_THAT(along.unobserved[0], HasSubstr("translation along"));
   EXPECT_NEAR(along.information(0, 0), 0, 1e-9);
   EXPECT_GT(along.information(1, 1), 100);
-  EXPECT_TRUE(registrationInformation(icpOn(hall), {}, true).unobserved.empty());
+  EXPECT_TRUE(
+      registrationInformation(matched(hall), Pose3::Identity(), {}, true).unobserved.empty());
 }
 
 TEST(RegistrationInformation, FewerPatchesKnowLess) {
-  IcpResult few = icpOn(room()), many = few;
+  MatchedSurface few = matched(room()), many = few;
   many.patches = 10 * few.patches;
   RegistrationInformationOptions options;
   options.common_share = 1e-9;
-  const double of_few = registrationInformation(few, options, false).information(0, 0);
-  const double of_many = registrationInformation(many, options, false).information(0, 0);
+  const double of_few =
+      registrationInformation(few, Pose3::Identity(), options, false).information(0, 0);
+  const double of_many =
+      registrationInformation(many, Pose3::Identity(), options, false).information(0, 0);
   EXPECT_NEAR(of_many, 10 * of_few, 1e-6 * of_many);
 }
 
 TEST(RegistrationInformation, IsNoneWithoutMatches) {
-  EXPECT_TRUE(registrationInformation({}, {}, false).information.isZero());
-  EXPECT_TRUE(registrationInformation({}, {}, true).information.isZero());
+  EXPECT_TRUE(registrationInformation({}, Pose3::Identity(), {}, false).information.isZero());
+  EXPECT_TRUE(registrationInformation({}, Pose3::Identity(), {}, true).information.isZero());
 }
 
 }  // namespace

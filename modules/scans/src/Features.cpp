@@ -118,7 +118,7 @@ Features computeFeatures(const Cloud& cloud, const FeatureOptions& options, doub
   const Cloud means = voxelMeans(cloud, coarseness * options.voxel_m);
   const KdTree tree(means.points);
   std::vector<Vector3f> normals =
-      surfaceNormals(means.points, tree, options.normal_neighbors, false);
+      fitPlanes(means.points, tree, options.normal_neighbors, false).normals;
   turnTowardsViewpoints(means, normals);
   std::vector<NeighborPair> pairs =
       neighborPairs(means.points, coarseness * options.descriptor_radius_m);

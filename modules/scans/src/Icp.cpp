@@ -3,8 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <tuple>
 
 #include "IcpLinearization.h"
 
@@ -43,17 +41,6 @@ class Matcher {
               (Tf.linear() * source_.normals()[i]).cast<double>());
     }
     return sum.result();
-  }
-
-  /** Cells of a metre with matched points. */
-  double patches() const {
-    std::set<std::tuple<int, int, int>> cells;
-    for (size_t k = 0; k < source_.own().size(); ++k) {
-      if (partners_[k] == KdTree::kNone) continue;
-      const Vector3f& p = source_.points()[source_.own()[k]];
-      cells.emplace(std::lround(p.x()), std::lround(p.y()), std::lround(p.z()));
-    }
-    return static_cast<double>(cells.size());
   }
 
  private:
@@ -103,26 +90,6 @@ Vector6d solveStep(const IcpNormalEquations& equations, bool planar) {
 /** Moves the pose by a step about the pivot, in the target's axes. */
 Pose3 movedAbout(const Vector3d& pivot, const Vector6d& step, const Pose3& T) {
   return normalized(Eigen::Translation3d(pivot) * expSE3(step) * Eigen::Translation3d(-pivot) * T);
-}
-
-Vector3d centroid(const PreparedScan& scan) {
-  Vector3d sum = Vector3d::Zero();
-  for (const uint32_t i : scan.own()) sum += scan.points()[i].cast<double>();
-  return sum / std::max<double>(1.0, static_cast<double>(scan.own().size()));
-}
-
-double rmsDistance(const PreparedScan& scan, const Vector3d& center) {
-  double sum = 0;
-  for (const uint32_t i : scan.own())
-    sum += (scan.points()[i].cast<double>() - center).squaredNorm();
-  return std::sqrt(sum / std::max<double>(1.0, static_cast<double>(scan.own().size())));
-}
-
-void describe(const IcpNormalEquations& equations, IcpResult& result) {
-  result.matches = equations.matches;
-  result.information = equations.point_to_plane;
-  result.weights = equations.weights;
-  result.residual_m = std::sqrt(equations.squares / std::max(equations.weights, 1e-12));
 }
 
 /** The options for scans whose points lie farther apart. */
@@ -194,26 +161,23 @@ IcpResult icp(const PreparedScan& source, const PreparedScan& target, const Pose
   IcpResult result;
   result.target_T_source = start;
   const bool planar = source.planar() && target.planar();
-  const Vector3d source_centroid = centroid(source);
-  result.radius_m = rmsDistance(source, source_centroid);
   // Many points of the one may match the same few of the other: that says nothing of the pose.
   if (std::min(source.own().size(), target.size()) < kMinMatches) return result;
   Matcher matcher(source, target);
   Schedule schedule(options, source.own().size());
   while (!result.converged && result.iterations < options.max_iterations) {
-    result.pivot = result.target_T_source * source_centroid;
-    const IcpNormalEquations equations = matcher.linearize(
-        result.target_T_source, result.pivot, schedule.distance(), schedule.stride(),
-        Linearization(metric, options.plane_thickness, schedule.kernel()));
+    const Vector3d pivot = result.target_T_source * source.centroid();
+    const IcpNormalEquations equations =
+        matcher.linearize(result.target_T_source, pivot, schedule.distance(), schedule.stride(),
+                          Linearization(metric, options.plane_thickness, schedule.kernel()));
     ++result.iterations;
-    describe(equations, result);
+    result.matches = equations.matches;
     if (equations.matches < kMinMatches) return result;
     const Vector6d step = solveStep(equations, planar);
     if (!step.allFinite()) return result;
-    result.target_T_source = movedAbout(result.pivot, step, result.target_T_source);
+    result.target_T_source = movedAbout(pivot, step, result.target_T_source);
     result.converged = schedule.endsAfter(step);
   }
-  if (result.converged) result.patches = matcher.patches();
   return result;
 }
 

@@ -41,16 +41,16 @@ Linearization::Linearization(IcpMetric metric, double plane_thickness, double ke
 void Linearization::add(const Vector3d& lever, const Vector3d& r, const Vector3d& n,
                         const Vector3d& m) {
   if (n.dot(m) < 0) return;  // two sides of a wall, or a floor and a ceiling
-  const Vector6d jn = derivative(n, lever);
   const double distance = n.dot(r);
   double weight;
   if (plane_to_plane_) {
     weight = addPlaneToPlane(lever, r, n, m);
   } else {
+    const Vector6d jn = derivative(n, lever);
     weight = gemanMcClure(distance * distance, kernel_m_);
+    addOuterProduct(weight, jn, sum_.H);
     sum_.g += weight * distance * jn;
   }
-  addOuterProduct(weight, jn, sum_.point_to_plane);
   sum_.weights += weight;
   sum_.squares += weight * distance * distance;
   ++sum_.matches;
@@ -87,8 +87,7 @@ void Linearization::addIsotropic(double weight, const Vector3d& lever, const Vec
 
 IcpNormalEquations Linearization::result() const {
   IcpNormalEquations result = sum_;
-  result.point_to_plane = symmetric(sum_.point_to_plane);
-  result.H = plane_to_plane_ ? symmetric(sum_.H) : result.point_to_plane;
+  result.H = symmetric(sum_.H);
   if (!plane_to_plane_) return result;
   // The isotropic part, J = [1, -lever x]: from the sums of lever and of lever leverᵀ.
   const Matrix3d L = skew(levers_);

@@ -9,9 +9,8 @@ namespace lamp {
 struct IcpNormalEquations {
   Matrix6d H = Matrix6d::Zero();
   Vector6d g = Vector6d::Zero();  ///< half the cost's gradient
-  Matrix6d point_to_plane = Matrix6d::Zero();
-  double weights = 0;
-  double squares = 0;  ///< weighted squared distances to the planes, metres²
+  double weights = 0;             ///< what the kernel leaves of the matches
+  double squares = 0;             ///< weighted squared distances to the planes, metres²
   size_t matches = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lamp/core/SurfaceNormals.h"
+#include "lamp/scans/SurfaceSupport.h"
 
 namespace lamp {
 
@@ -53,6 +54,14 @@ Cloud inNeighborlyOrder(const Cloud& cloud) {
   return result;
 }
 
+/** 0 of none. */
+float median(std::vector<float> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /** Median distance from a point to the nearest other one, metres. */
 float spacing(const Cloud& cloud, const KdTree& tree) {
   constexpr size_t kSamples = 250;
@@ -64,10 +73,48 @@ float spacing(const Cloud& cloud, const KdTree& tree) {
     if (nearest.size() == 2)
       distances.push_back((cloud.points[nearest[0]] - cloud.points[nearest[1]]).norm());
   }
-  if (distances.empty()) return 0;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(std::move(distances));
+}
+
+/** Of the points where there is a plane. */
+float medianWherePlane(const FittedPlanes& planes, const std::vector<float>& values) {
+  std::vector<float> known;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (!planes.normals[i].isZero()) known.push_back(values[i]);
+  return median(std::move(known));
+}
+
+/** Planes whose neighbourhoods are wide compared to how far the points lie off them: where a 2D
+ * laser is noisy, the nearest points are a disc, not a line. In space such points are no noise but
+ * plants, and wider neighbourhoods would blur them. */
+FittedPlanes fitWideEnough(const std::vector<Vector3f>& points, const KdTree& tree, int neighbors,
+                           bool planar) {
+  constexpr float kMaxUnevenness = 0.4f;
+  constexpr int kMostDoublings = 3;
+  FittedPlanes planes = fitPlanes(points, tree, neighbors, planar);
+  const auto isUneven = [&] {
+    return medianWherePlane(planes, planes.deviations_m) >
+           kMaxUnevenness * medianWherePlane(planes, planes.extents_m);
+  };
+  for (int doubling = 0; planar && doubling < kMostDoublings && isUneven(); ++doubling) {
+    neighbors *= 2;
+    planes = fitPlanes(points, tree, neighbors, planar);
+  }
+  return planes;
+}
+
+Eigen::Vector3d centroidOf(const std::vector<Vector3f>& points,
+                           const std::vector<uint32_t>& places) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const uint32_t i : places) sum += points[i].cast<double>();
+  return sum / std::max<double>(1.0, static_cast<double>(places.size()));
+}
+
+double rmsDistance(const std::vector<Vector3f>& points, const std::vector<uint32_t>& places,
+                   const Eigen::Vector3d& center) {
+  double sum = 0;
+  for (const uint32_t i : places) sum += (points[i].cast<double>() - center).squaredNorm();
+  return std::sqrt(sum / std::max<double>(1.0, static_cast<double>(places.size())));
 }
 
 double coarsenessOf(const Cloud& cloud, const KdTree& tree) {
@@ -89,12 +136,16 @@ PreparedScan::PreparedScan(const Cloud& cloud, const ScanPreparationOptions& opt
       planar_(planar),
       cloud_(inNeighborlyOrder(cloud)),
       tree_(cloud_.points),
-      normals_(surfaceNormals(cloud_.points, tree_, options.normal_neighbors, planar)),
       free_space_(cloud_),
       coarseness_(coarsenessOf(cloud_, tree_)) {
-  turnTowardsViewpoints(cloud_, normals_);
   for (uint32_t i = 0; i < cloud_.size(); ++i)
     if (cloud_.isOwn(i)) own_.push_back(i);
+  FittedPlanes planes = fitWideEnough(cloud_.points, tree_, options.normal_neighbors, planar);
+  noise_m_ = medianWherePlane(planes, planes.deviations_m);
+  normals_ = std::move(planes.normals);
+  turnTowardsViewpoints(cloud_, normals_);
+  centroid_ = centroidOf(cloud_.points, own_);
+  radius_m_ = rmsDistance(cloud_.points, own_, centroid_);
   seconds_ = secondsSince(begun_);
 }
 
@@ -107,10 +158,19 @@ const Features& PreparedScan::features() const {
   return features_;
 }
 
+const std::vector<uint8_t>& PreparedScan::support() const {
+  std::call_once(support_made_, [this] {
+    const Clock::time_point begin = Clock::now();
+    support_ = surfaceSupport(cloud_, normals_, noise_m_, planar_);
+    seconds_ = seconds_ + secondsSince(begin);
+  });
+  return support_;
+}
+
 size_t PreparedScan::bytes() const {
   constexpr size_t kTreePerPoint = 24;  // leaves of ten points, an index each
   const auto keypoints = planar_ ? 0 : static_cast<size_t>(feature_options_.max_keypoints);
-  return size() * (2 * sizeof(Vector3f) + 2 * sizeof(uint32_t) + kTreePerPoint) +
+  return size() * (2 * sizeof(Vector3f) + 2 * sizeof(uint32_t) + kTreePerPoint + 1) +
          free_space_.bytes() +
          std::min(size(), keypoints) *
              (2 * sizeof(Vector3f) + Features::kDimensions * sizeof(float));

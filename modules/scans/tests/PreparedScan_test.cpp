@@ -32,6 +32,23 @@ TEST(PreparedScan, PlanarNormalsLieInThePlaneAndThereAreNoFeatures) {
   EXPECT_EQ(scan->features().size(), 0u);
 }
 
+TEST(PreparedScan, NoiseIsThatOfThePoints) {
+  for (const float noise : {0.01f, 0.03f, 0.1f}) {
+    EXPECT_NEAR(prepareScan(roomPoints(6000, noise, 1), 10, false)->noise(), noise, 0.3 * noise);
+    EXPECT_NEAR(prepareScan(planarRoomPoints(700, noise, 1), 10, true)->noise(), noise,
+                0.3 * noise);
+  }
+  EXPECT_EQ(prepareScan({}, 10, false)->noise(), 0);
+}
+
+TEST(PreparedScan, NormalsOfANoisyLaserAreThoseOfTheWalls) {
+  // Ten neighbours of 0.05 m spacing and 0.2 m noise are a ball.
+  const auto scan = prepareScan(planarRoomPoints(600, 0.2f, 1), 10, true);
+  size_t aligned = 0;
+  for (const auto& normal : scan->normals()) aligned += normal.cwiseAbs().maxCoeff() > 0.9f ? 1 : 0;
+  EXPECT_GT(aligned, scan->size() * 7 / 10);
+}
+
 TEST(PreparedScan, CoarsenessIsThatOfSparsePoints) {
   EXPECT_EQ(prepareScan(roomPoints(6000, 0.01f, 1), 10, false)->coarseness(), 1.0);
   std::vector<Vector3f> grid;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lamp/core/Options.h"
-#include "lamp/scans/Icp.h"
+#include "lamp/scans/MatchedSurface.h"
 #include "lamp/scans/Observability.h"
 
 namespace lamp {
@@ -33,7 +33,8 @@ struct RegistrationInformation {
  *
  * Directions of which the scans say next to nothing (the axis of a tunnel) get no information
  * instead of little: noise looks like some (paper II-C; Zhang, Kaess, Singh, ICRA 2016). */
-RegistrationInformation registrationInformation(const IcpResult& icp,
+RegistrationInformation registrationInformation(const MatchedSurface& surface,
+                                                const Pose3& target_T_source,
                                                 const RegistrationInformationOptions& options,
                                                 bool planar);
 

@@ -27,15 +27,6 @@ struct IcpOptions {
 
 struct IcpResult {
   Pose3 target_T_source = Pose3::Identity();
-  /** The A of the paper's observability analysis: sum of Hᵀ H over the matched points with their
-   * weights, H the derivative of the point-to-plane distance (metres) by a motion about `pivot` in
-   * the target's axes. */
-  Matrix6d information = Matrix6d::Zero();
-  Eigen::Vector3d pivot = Eigen::Vector3d::Zero();  ///< centroid of the source, in the target
-  double weights = 0;                               ///< sum over the matched points
-  double patches = 0;     ///< pieces of surface, about a metre wide, that the matched points lie on
-  double radius_m = 0;    ///< r.m.s. distance of the source's points from the pivot
-  double residual_m = 0;  ///< weighted r.m.s. point-to-plane distance
   bool converged = false;  ///< false also if too few points matched
   int iterations = 0;
   size_t matches = 0;  ///< in the last iteration

@@ -51,6 +51,16 @@ class PreparedScan {
   bool planar() const { return planar_; }
   const KdTree& tree() const { return tree_; }
   const FreeSpace& freeSpace() const { return free_space_; }
+  /** Of its own points; the origin and zero if it has none. Metres. */
+  const Eigen::Vector3d& centroid() const { return centroid_; }
+  /** R.m.s. distance of its own points from the centroid, metres. */
+  double radius() const { return radius_m_; }
+  /** How far its points lie off their surface, median of the standard deviations around each,
+   * metres: the lidar's noise, and the surface's roughness. */
+  double noise() const { return noise_m_; }
+  /** For each point, 1 if its normal is a surface's, see surfaceSupport(). Computed when first
+   * asked for. */
+  const std::vector<uint8_t>& support() const;
   /** Computed when first asked for: not every aligner needs them. */
   const Features& features() const;
   /** How much farther apart its points lie than those of the scans that lengths among the options
@@ -71,6 +81,10 @@ class PreparedScan {
   std::vector<uint32_t> own_;
   const FreeSpace free_space_;
   const double coarseness_;
+  Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
+  double radius_m_ = 0, noise_m_ = 0;
+  mutable std::once_flag support_made_;
+  mutable std::vector<uint8_t> support_;
   mutable std::once_flag features_made_;
   mutable Features features_;
   mutable std::atomic<double> seconds_{0};
