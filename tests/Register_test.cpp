@@ -113,6 +113,60 @@ TEST_F(RegisterPair, SaysWhatLedToTheVerdict) {
                              HasSubstr("accepted")));
 }
 
+/** The cloud in survey coordinates, in a file that keeps doubles. */
+std::string surveyPly(const Points& points, const Eigen::Vector3d& origin, bool as_floats) {
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                     std::to_string(points.size()) +
+                     "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+  for (const auto& p : points)
+    for (const double coordinate : p + origin) {
+      const double value = as_floats ? static_cast<float>(coordinate) : coordinate;
+      text.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  return text;
+}
+
+Eigen::Vector3d offsetOf(const nlohmann::json& cloud) {
+  return {cloud["offset"][0], cloud["offset"][1], cloud["offset"][2]};
+}
+
+TEST_F(RegisterPair, WorksInSurveyCoordinates) {
+  const Eigen::Vector3d utm(431200.25, 5412345.5, 312);
+  const std::string target =
+      file("utm_target.ply", surveyPly(scan(world_, world_T_target_, 1), utm, false));
+  const std::string source =
+      file("utm_source.ply", surveyPly(scan(world_, world_T_source_, 2), utm, false));
+  const LampResult end = run({source, target});
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  const auto result = json();
+  ASSERT_TRUE(result["accepted"]) << end.out;
+  EXPECT_THAT(end.out, HasSubstr("less 431200 5412300 300 m"));
+  EXPECT_EQ(offsetOf(result["source"]), offsetOf(result["target"]));
+  Pose3 found;
+  for (int i = 0; i < 16; ++i) found.matrix()(i / 4, i % 4) = result["target_T_source"][i];
+  // Where a point of the source comes to lie, against where the truth puts it.
+  const Eigen::Vector3d point(1, 2, 0.5);
+  const Eigen::Vector3d moved =
+      offsetOf(result["target"]) + found * (point + utm - offsetOf(result["source"]));
+  const Eigen::Vector3d expected = world_T_target_.inverse() * world_T_source_ * point + utm;
+  EXPECT_LT((moved - expected).norm(), 0.05);
+}
+
+TEST_F(RegisterPair, CoordinatesThatWereRoundedOrAreNoMetresAreErrorsWithACure) {
+  const Points points = scan(world_, world_T_source_, 2);
+  const std::string rounded =
+      file("rounded.ply", surveyPly(points, {431200.25, 5412345.5, 312}, true));
+  const LampResult of_rounded = run({rounded, target_});
+  EXPECT_EQ(of_rounded.exit_code, kFailed);
+  EXPECT_THAT(of_rounded.err, AllOf(HasSubstr("rounded.ply"), HasSubstr("rounds them to 0.5 m"),
+                                    HasSubstr("64-bit")));
+  Points millimetres;
+  for (const auto& p : points) millimetres.push_back(1000 * p);
+  const LampResult of_millimetres = run({file("mm.ply", plyText(millimetres)), target_});
+  EXPECT_EQ(of_millimetres.exit_code, kFailed);
+  EXPECT_THAT(of_millimetres.err, AllOf(HasSubstr("mm.ply"), HasSubstr("millimetres")));
+}
+
 TEST_F(RegisterPair, JsonCanTakeThePlaceOfTheReport) {
   const LampResult end = runRegister({source_, target_, "--json", "-"});
   ASSERT_EQ(end.exit_code, 0) << end.err;

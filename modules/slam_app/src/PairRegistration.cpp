@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
+#include <tuple>
 #include <utility>
 
-#include "lamp/core/CloudFile.h"
 #include "lamp/scans/Cloud.h"
-#include "lamp/scans/VoxelFilter.h"
 
 namespace lamp {
 
 namespace {
 
-/** Prepared scans have no points beyond it, and voxels need a bound. */
-constexpr float kFarthest_m = 1e6f;
 /** A level laser's points differ in height by no more than rounding. */
 constexpr float kLevel_m = 1e-3f;
 
@@ -30,35 +26,6 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
 };
-
-Scan scanOf(CloudPoints cloud) {
-  Scan scan;
-  scan.points = std::move(cloud.points);
-  const auto is_far = [](const Eigen::Vector3f& p) { return p.norm() > kFarthest_m; };
-  scan.points.erase(std::remove_if(scan.points.begin(), scan.points.end(), is_far),
-                    scan.points.end());
-  scan.sensors = {{"lidar", cloud.viewpoint}};
-  scan.sensor.assign(scan.size(), 0);
-  return scan;
-}
-
-RegisteredCloud load(const std::string& path, const FrontEndOptions& options) {
-  CloudPoints points = readCloudPoints(path);
-  RegisteredCloud cloud;
-  cloud.path = path;
-  cloud.read = points.points.size() + points.not_finite;
-  Scan scan = scanOf(std::move(points));
-  cloud.left_out = cloud.read - scan.size();
-  if (scan.points.empty())
-    throw std::runtime_error("'" + path + "' holds no point within 1000 km of its origin");
-  if (!options.keyed && scan.size() > static_cast<size_t>(options.voxel.target_points)) {
-    AdaptiveVoxelFilter filter(options.voxel);
-    scan = filter.filter(scan);
-    cloud.leaf_m = filter.leaf();
-  }
-  cloud.scan = std::make_shared<const Scan>(std::move(scan));
-  return cloud;
-}
 
 bool isLevel(const Scan& scan) {
   const auto [low, high] =
@@ -92,8 +59,7 @@ std::string PairRegistration::verdict() const {
 PairRegistration registerPair(const std::string& source, const std::string& target,
                               const SlamConfig& config) {
   PairRegistration pair;
-  pair.source = load(source, config.frontend);
-  pair.target = load(target, config.frontend);
+  std::tie(pair.source, pair.target) = loadClouds(source, target, config.frontend);
   pair.planar = isLevel(*pair.source.scan) && isLevel(*pair.target.scan);
   Stopwatch watch;
   const auto prepared_source = prepare(pair.source, config.registration.preparation, pair.planar);

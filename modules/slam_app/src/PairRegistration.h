@@ -3,20 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "lamp/core/KeyedScan.h"
+#include "RegisteredCloud.h"
 #include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/slam_app/SlamConfig.h"
 
 namespace lamp {
-
-/** A cloud of a file, and what of it is registered. */
-struct RegisteredCloud {
-  std::string path;
-  size_t read = 0;      ///< points in the file
-  size_t left_out = 0;  ///< of these, that are not finite or too far away
-  double leaf_m = 0;    ///< of the voxel filter; 0 if it was not needed
-  KeyedScanPtr scan;    ///< in the frame of the file
-};
 
 /** One registration without a guess. */
 struct PairRegistration {

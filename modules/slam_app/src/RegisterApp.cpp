@@ -59,7 +59,9 @@ SlamConfig readConfig(const Arguments& arguments) {
 }
 
 PicturedCloud pictured(const RegisteredCloud& cloud) {
-  return {std::filesystem::path(cloud.path).filename().string(), cloud.scan->points};
+  std::string name = std::filesystem::path(cloud.path).filename().string();
+  if (!cloud.offset.isZero()) name += " less " + offsetText(cloud);
+  return {std::move(name), cloud.scan->points};
 }
 
 void draw(const PairRegistration& pair, const std::string& path) {

@@ -19,7 +19,9 @@ Json cloudJson(const RegisteredCloud& cloud) {
           {"points", cloud.read},
           {"left_out", cloud.left_out},
           {"used", cloud.scan->size()},
-          {"leaf_m", cloud.leaf_m > 0 ? Json(cloud.leaf_m) : Json()}};
+          {"leaf_m", cloud.leaf_m > 0 ? Json(cloud.leaf_m) : Json()},
+          {"offset", {cloud.offset.x(), cloud.offset.y(), cloud.offset.z()}},
+          {"notes", cloud.notes}};
 }
 
 Json scoresJson(const std::vector<Score>& scores) {

@@ -27,10 +27,13 @@ std::string line(const std::string& name, const std::string& text) {
 std::string cloudLine(const char* role, const RegisteredCloud& cloud) {
   std::string text = cloud.path + ": " + std::to_string(cloud.read) + " points";
   if (cloud.left_out > 0)
-    text += ", " + std::to_string(cloud.left_out) + " left out: not finite or too far away";
+    text += ", " + std::to_string(cloud.left_out) + " left out: not finite, 0 0 0 or too far away";
   if (cloud.leaf_m > 0)
     text += format(", thinned to %zu with voxels of %.2f m", cloud.scan->size(), cloud.leaf_m);
-  return line(role, text);
+  text = line(role, text);
+  if (!cloud.offset.isZero()) text += line("", "its frame: the file's less " + offsetText(cloud));
+  for (const std::string& note : cloud.notes) text += line("", note);
+  return text;
 }
 
 std::string poseText(const Pose3& pose) {
@@ -106,6 +109,10 @@ std::string resultLines(const PairRegistration& pair) {
 }
 
 }  // namespace
+
+std::string offsetText(const RegisteredCloud& cloud) {
+  return format("%.0f %.0f %.0f m", cloud.offset.x(), cloud.offset.y(), cloud.offset.z());
+}
 
 std::string registerReport(const PairRegistration& pair) {
   std::string text = cloudLine("source", pair.source) + cloudLine("target", pair.target);
