@@ -1,5 +1,6 @@
 #include "lamp/pose_graph/MarginalCovariances.h"
 
+#include <mutex>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -68,14 +69,11 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
     const Unknowns unknowns = findUnknowns(graph, weights);
     NormalEquations<Space> equations(terms, unknowns);
     equations.linearize(poses_);
-    BlockMatrix<kDof> matrix = equations.matrix();
-    for (auto& block : matrix.diagonal)
+    matrix_ = equations.matrix();
+    for (auto& block : matrix_.diagonal)
       block.diagonal() +=
           (kLeastShare * block.diagonal().array() + kLeastInformation).matrix().eval();
     row_ = unknowns.row;
-    cholesky_ = std::make_unique<BlockCholesky<kDof>>(matrix);
-    if (!cholesky_->factorize(matrix, 0))
-      throw std::runtime_error("the pose graph's information matrix cannot be factorised");
   }
 
   std::vector<std::optional<Matrix6d>> relative(KeyNodeId from,
@@ -109,7 +107,16 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
 
   /** Empty for a node that is held: it is known. */
   Column column(size_t node) const {
-    return row_[node] < 0 ? Column() : cholesky_->inverseColumn(row_[node]);
+    return row_[node] < 0 ? Column() : cholesky().inverseColumn(row_[node]);
+  }
+
+  const BlockCholesky<kDof>& cholesky() const {
+    std::call_once(factorized_, [this] {
+      cholesky_ = std::make_unique<BlockCholesky<kDof>>(matrix_);
+      if (!cholesky_->factorize(matrix_, 0))
+        throw std::runtime_error("the pose graph's information matrix cannot be factorised");
+    });
+    return *cholesky_;
   }
 
   Matrix6d absolute(size_t place) const {
@@ -142,7 +149,9 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
   std::vector<std::optional<size_t>> gauge_;
   std::vector<typename Space::Pose> poses_;
   std::vector<int> row_;  ///< of each pose in the equations, -1 for held ones
-  std::unique_ptr<BlockCholesky<kDof>> cholesky_;
+  BlockMatrix<kDof> matrix_;
+  mutable std::once_flag factorized_;
+  mutable std::unique_ptr<BlockCholesky<kDof>> cholesky_;  ///< made by the first that asks for it
 };
 
 MarginalCovariances::MarginalCovariances(const PoseGraph& graph) {

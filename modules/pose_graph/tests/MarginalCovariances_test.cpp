@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <stdexcept>
+#include <thread>
 
 #include "TestGraphs.h"
 
@@ -103,6 +104,26 @@ TEST(MarginalCovariances, OfANodeAreRelativeToTheFirstWithoutAPrior) {
   EXPECT_TRUE(
       held.relativeCovariances(key_node(0, 0), {key_node(0, 6)})[0]->isApprox(relative, 1e-4))
       << "the prior moves both";
+}
+
+TEST(MarginalCovariances, FirstQueriesMayRunInParallel) {
+  const PoseGraph graph = randomLoops(3);
+  const MarginalCovariances one_by_one(graph), at_once(graph);
+  std::vector<Matrix6d> results(8);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i)
+    threads.emplace_back([&, i] { results[i] = at_once.covariance(key_node(0, i)); });
+  for (std::thread& thread : threads) thread.join();
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(results[i], one_by_one.covariance(key_node(0, i)));
+}
+
+TEST(MarginalCovariances, OfAGraphThatChangesAreThoseOfTheSnapshot) {
+  PoseGraph graph = randomLoops(3);
+  const Matrix6d expected = MarginalCovariances(graph).covariance(key_node(0, 6));
+  const MarginalCovariances snapshot(graph);
+  graph.node(key_node(0, 6)).world_T_base.translation().x() += 1000;
+  for (Edge& edge : graph.edges()) edge.weight = 0.5;
+  EXPECT_EQ(snapshot.covariance(key_node(0, 6)), expected);
 }
 
 class TwoRobots : public testing::Test {

@@ -18,10 +18,11 @@ namespace lamp {
  * of up to 1000 m or rad. Of a planar graph only x, y, yaw are computed, the other axes get a
  * variance of 1e-6.
  *
- * Takes a snapshot: later changes of the graph are not seen. Queries may run in parallel. */
+ * Takes a snapshot: later changes of the graph are not seen. The first query factorises the matrix;
+ * it throws std::runtime_error if rounding errors leave no positive definite one. Queries may run
+ * in parallel. */
 class MarginalCovariances : public UncertaintyQuery {
  public:
-  /** \throws std::runtime_error if rounding errors leave no positive definite matrix. */
   explicit MarginalCovariances(const PoseGraph& graph);
   ~MarginalCovariances() override;
 
