@@ -42,6 +42,12 @@ lamp_dependency(embree embree)
 lamp_dependency(octomap ${OCTOMAP_LIBRARIES})
 target_include_directories(lamp_dep_octomap SYSTEM INTERFACE ${OCTOMAP_INCLUDE_DIRS})
 
+# METIS comes without a CMake package.
+find_path(LAMP_METIS_INCLUDE_DIR metis.h REQUIRED)
+find_library(LAMP_METIS_LIBRARY metis REQUIRED)
+lamp_dependency(metis ${LAMP_METIS_LIBRARY})
+target_include_directories(lamp_dep_metis SYSTEM INTERFACE ${LAMP_METIS_INCLUDE_DIR})
+
 # lamp_link_pcl(<target> <component>...): for tests and benchmarks, which compare with PCL. Its CMake
 # package would ask for VTK, MPI and C.
 function(lamp_link_pcl target)

@@ -11,14 +11,14 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libmrpt-maps-dev libmrpt-graphs-dev
-  libceres-dev libeigen3-dev liboctomap-dev libnanoflann-dev
+  libceres-dev libmetis-dev libeigen3-dev liboctomap-dev libnanoflann-dev
   libtbb-dev libcli11-dev libembree-dev nlohmann-json3-dev zlib1g-dev liblzf-dev
   gnuplot-nox # pictures of lamp-eval
   mrpt-common # the recording that demo.sh runs
 )
 # PCL and OctoMap's tools read our files back in the tests.
 test_packages=(libgtest-dev libgmock-dev libpcl-dev octomap-tools)
-bench_packages=(libbenchmark-dev)
+bench_packages=(libbenchmark-dev libsuitesparse-dev)
 fuzz_packages=(clang libclang-rt-dev)
 
 case "${1:-}" in

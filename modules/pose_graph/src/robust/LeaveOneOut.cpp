@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <unordered_map>
 
+#include "solver/SelectedInverse.h"
+
 namespace lamp {
 
 namespace {
@@ -15,7 +17,7 @@ class InverseBlocks {
 
   /** \param few whether so few blocks will be asked for that their columns cost less than all. */
   InverseBlocks(const BlockCholesky<kDof>& cholesky, bool few) : cholesky_(cholesky) {
-    if (!few) selected_ = cholesky.selectedInverse();
+    if (!few) selected_ = selectedInverse(cholesky);
   }
 
   Block operator()(int row, int column) {

@@ -1,6 +1,8 @@
 #include "solver/BlockCholesky.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solver/BlockKernels.h"
 
@@ -12,6 +14,8 @@ namespace {
 constexpr size_t kSpare = 1;
 /** Pivots below this share of their diagonal element are rounding errors. */
 constexpr double kLeastPivot = 1e-14;
+/** Numbers in the rows of a panel, and rows, from which on copying them for tiles pays. */
+constexpr int kThick = 24;
 
 /** Replaces a symmetric block, of which the lower triangle counts, by the inverse of its Cholesky
  * factor. \param diagonal what pivots are compared with. \return false if one is too small. */
@@ -46,20 +50,29 @@ BlockCholesky<kSize>::BlockCholesky(const BlockMatrix<kSize>& structure)
 template <int kSize>
 BlockCholesky<kSize>::BlockCholesky(const BlockMatrix<kSize>& structure,
                                     const BlockKernels& kernels)
-    : symbolic_(static_cast<int>(structure.diagonal.size()), structure.pairs),
+    : symbolic_(static_cast<int>(structure.diagonal.size()), structure.pairs,
+                TileProducts<kSize>::kMaxColumns),
+      kernels_(kernels),
       subtract_(kSize == 3 ? kernels.subtract3 : kernels.subtract6),
+      tiles_(kernels),
       blocks_(symbolic_.rows().size() + kSpare),
       diagonal_(structure.diagonal.size()),
-      position_(structure.diagonal.size()) {
+      position_(structure.diagonal.size()),
+      next_waiting_(symbolic_.panels()),
+      next_row_(symbolic_.panels()) {
   static_assert(kSize == 3 || kSize == 6);
 }
 
 template <int kSize>
 bool BlockCholesky<kSize>::factorize(const BlockMatrix<kSize>& matrix, double damping) {
   load(matrix, damping);
-  for (int column = 0; column < symbolic_.size(); ++column) {
-    subtractLeft(column);
-    if (!finishColumn(column)) return false;
+  first_waiting_.assign(symbolic_.panels(), -1);
+  for (int panel = 0; panel < symbolic_.panels(); ++panel) {
+    const int* const rows = symbolic_.panelRows(panel);
+    for (int i = 0; i < symbolic_.panelHeight(panel); ++i) position_[rows[i]] = i;
+    subtractLeft(panel);
+    if (!finishPanel(panel)) return false;
+    wait(panel, symbolic_.panelWidth(panel));
   }
   return true;
 }
@@ -83,17 +96,75 @@ void BlockCholesky<kSize>::load(const BlockMatrix<kSize>& matrix, double damping
 }
 
 template <int kSize>
-void BlockCholesky<kSize>::subtractLeft(int column) {
-  const int* const rows = symbolic_.rows().data();
-  for (int entry = symbolic_.columnBegin(column); entry < symbolic_.columnEnd(column); ++entry)
-    position_[rows[entry]] = entry;
-  const auto* const end = symbolic_.leftEnd(column);
-  for (const auto* left = symbolic_.leftBegin(column); left != end; ++left) {
-    const double* const block = blocks_[left->entry].data();
-    subtract_(block, block, rows + left->entry,
-              static_cast<size_t>(symbolic_.columnEnd(left->column) - left->entry),
-              position_.data(), blocks_.front().data());
+void BlockCholesky<kSize>::wait(int panel, int next_row) {
+  if (next_row == symbolic_.panelHeight(panel)) return;
+  int& first = first_waiting_[symbolic_.panelOf(symbolic_.panelRows(panel)[next_row])];
+  next_row_[panel] = next_row;
+  next_waiting_[panel] = std::exchange(first, panel);
+}
+
+/** What the columns on the left change in a panel. */
+template <int kSize>
+void BlockCholesky<kSize>::subtractLeft(int panel) {
+  const int panel_end = symbolic_.panelBegin(panel) + symbolic_.panelWidth(panel);
+  for (int left = first_waiting_[panel]; left >= 0;) {
+    const int next_left = next_waiting_[left], begin = next_row_[left];
+    const int* const rows = symbolic_.panelRows(left);
+    int end = begin + 1;
+    while (end < symbolic_.panelHeight(left) && rows[end] < panel_end) ++end;
+    subtract(left, symbolic_.panelWidth(left), begin, end);
+    wait(left, end);
+    left = next_left;
   }
+}
+
+/** The first columns of a panel change those that stand in its rows `begin` to `end`. */
+template <int kSize>
+void BlockCholesky<kSize>::subtract(int left, int columns, int begin, int end) {
+  if (kSize * columns >= kThick && kSize * (symbolic_.panelHeight(left) - begin) >= kThick)
+    return subtractTiles(left, columns, begin, end);
+  for (int column = 0; column < columns; ++column) subtractColumn(left, column, begin, end);
+}
+
+template <int kSize>
+void BlockCholesky<kSize>::subtractColumn(int left, int column, int begin, int end) {
+  const int* const rows = symbolic_.panelRows(left);
+  const int entry = symbolic_.panelEntry(symbolic_.panelBegin(left) + column);
+  for (int i = begin; i < end; ++i) {
+    const double* const block = blocks_[entry + i].data();
+    subtract_(block, block, rows + i, static_cast<size_t>(symbolic_.panelHeight(left) - i),
+              position_.data(), blocks_[symbolic_.panelEntry(rows[i])].data());
+  }
+}
+
+template <int kSize>
+void BlockCholesky<kSize>::subtractTiles(int left, int columns, int begin, int end) {
+  const int* const rows = symbolic_.panelRows(left) + begin;
+  const int first = symbolic_.panelBegin(left);
+  const auto factor = [&](int row, int column) {
+    return typename TileProducts<kSize>::Operand{
+        blocks_[symbolic_.panelEntry(first + column) + begin + row], false};
+  };
+  const auto target = [&](int row, int column) {
+    return row < column ? nullptr
+                        : &blocks_[symbolic_.panelEntry(rows[column]) + position_[rows[row]]];
+  };
+  tiles_.subtract(symbolic_.panelHeight(left) - begin, end - begin, columns, factor, factor,
+                  target);
+}
+
+template <int kSize>
+bool BlockCholesky<kSize>::finishPanel(int panel) {
+  constexpr int kAtOnce = kTileRows / kSize;
+  for (int done = 0; done < symbolic_.panelWidth(panel); done += kAtOnce) {
+    const int end = std::min(done + kAtOnce, symbolic_.panelWidth(panel));
+    subtract(panel, done, done, end);
+    for (int column = done; column < end; ++column) {
+      if (!finishColumn(symbolic_.panelBegin(panel) + column)) return false;
+      subtractColumn(panel, column, column + 1, end);
+    }
+  }
+  return true;
 }
 
 template <int kSize>
@@ -154,43 +225,6 @@ std::vector<typename BlockCholesky<kSize>::InverseBlock> BlockCholesky<kSize>::i
       column[at[rows[entry]]].block.noalias() -= blocks_[entry] * item.block;
   }
   return column;
-}
-
-// Erisman, Tinney, "On computing certain elements of the inverse of a sparse matrix", CACM 1975:
-// from Lᵀ Z = L⁻¹, the columns of Z from the last to the first. The rows of a column of the factor
-// are all neighbours in it, so what the sums need is there.
-template <int kSize>
-std::vector<typename BlockCholesky<kSize>::Block> BlockCholesky<kSize>::selectedInverse() const {
-  const int* const rows = symbolic_.rows().data();
-  std::vector<Block> inverse(symbolic_.rows().size(), Block::Zero()),
-      scaled(symbolic_.rows().size());
-  std::vector<int> position(symbolic_.size(), -1);  // by row: its entry in the column at work
-  for (int column = symbolic_.size() - 1; column >= 0; --column) {
-    const int begin = symbolic_.columnBegin(column), end = symbolic_.columnEnd(column);
-    for (int entry = begin + 1; entry < end; ++entry) {
-      position[rows[entry]] = entry;
-      scaled[entry].noalias() = blocks_[entry] * blocks_[begin];
-    }
-    for (int entry = begin + 1; entry < end; ++entry) {
-      const int right = rows[entry];
-      const int diagonal = symbolic_.columnBegin(right);
-      Block sum = inverse[diagonal] * scaled[entry];
-      for (int below = diagonal + 1; below < symbolic_.columnEnd(right); ++below) {
-        const int at = position[rows[below]];
-        if (at < 0) continue;
-        inverse[at].noalias() -= inverse[below] * scaled[entry];
-        sum.noalias() += inverse[below].transpose() * scaled[at];
-      }
-      inverse[entry] -= sum;
-    }
-    Block diagonal = blocks_[begin].transpose() * blocks_[begin];
-    for (int entry = begin + 1; entry < end; ++entry) {
-      diagonal.noalias() -= scaled[entry].transpose() * inverse[entry];
-      position[rows[entry]] = -1;
-    }
-    inverse[begin] = diagonal;
-  }
-  return inverse;
 }
 
 template class BlockCholesky<3>;

@@ -1,16 +1,18 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "solver/BlockKernel.h"
 #include "solver/BlockMatrix.h"
 #include "solver/SymbolicCholesky.h"
+#include "solver/TileProducts.h"
 
 namespace lamp {
 
 /** Sparse Cholesky factorisation L·Lᵀ of symmetric positive definite block matrices of one
- * structure. One thread; the order of all sums is fixed. */
+ * structure: left-looking, by panels of columns with the same rows (Ng, Peyton, "Block sparse
+ * Cholesky algorithms on advanced uniprocessor computers", SIAM J. Sci. Comput. 1993). One thread;
+ * the order of all sums is fixed. */
 template <int kSize>
 class BlockCholesky {
  public:
@@ -36,25 +38,32 @@ class BlockCholesky {
    * the products of two such columns, (L⁻¹)ᵀ L⁻¹. */
   std::vector<InverseBlock> inverseColumn(int row) const;
 
-  /** The inverse's blocks where the factor has blocks, in their order: for each pair of the
-   * structure, and more. */
-  std::vector<Block> selectedInverse() const;
-
   const SymbolicCholesky& symbolic() const { return symbolic_; }
   /** Blocks of the factor as symbolic() places them; those on the diagonal hold the inverse of the
    * factor's lower triangle. */
   const std::vector<Block>& blocks() const { return blocks_; }
+  const BlockKernels& kernels() const { return kernels_; }
 
  private:
   void load(const BlockMatrix<kSize>& matrix, double damping);
-  void subtractLeft(int column);
+  void subtractLeft(int panel);
+  void subtract(int left, int columns, int begin, int end);
+  void subtractColumn(int left, int column, int begin, int end);
+  void subtractTiles(int left, int columns, int begin, int end);
+  bool finishPanel(int panel);
   bool finishColumn(int column);
+  void wait(int panel, int next_row);
 
   SymbolicCholesky symbolic_;
+  const BlockKernels& kernels_;
   SubtractProducts subtract_;
+  TileProducts<kSize> tiles_;
   std::vector<Block> blocks_;
   std::vector<Eigen::Matrix<double, kSize, 1>> diagonal_;  ///< of the damped matrix, by place
-  std::vector<int> position_;  ///< by row: its entry in the column at work
+  std::vector<int> position_;  ///< by row: its number in the panel at work
+  /** Lists of the finished panels by the next panel that they change: the first of each list, and
+   * by panel the one behind it and the number of its row there. */
+  std::vector<int> first_waiting_, next_waiting_, next_row_;
 };
 
 extern template class BlockCholesky<3>;

@@ -4,6 +4,7 @@
 
 #include "solver/BlockKernel.h"
 #include "solver/BlockProducts.h"
+#include "solver/BlockTiles.h"
 
 namespace lamp {
 
@@ -27,6 +28,19 @@ struct Avx2Column6 {
 
   __m256d first;
   __m128d last;
+};
+
+struct Avx2Vector {
+  static constexpr int kSize = 4;
+
+  void setZero() { values = _mm256_setzero_pd(); }
+  void load(const double* from) { values = _mm256_loadu_pd(from); }
+  void store(double* to) const { _mm256_storeu_pd(to, values); }
+  void add(const Avx2Vector& vector, double factor) {
+    values = _mm256_fmadd_pd(vector.values, _mm256_set1_pd(factor), values);
+  }
+
+  __m256d values;
 };
 
 }  // namespace
@@ -54,7 +68,9 @@ void subtract3Avx2(const double* left, const double* right, const int* rows, siz
 }
 
 extern const BlockKernels kAvx2Kernels;
-const BlockKernels kAvx2Kernels = {"avx2", subtract3Avx2, subtractProducts<6, Avx2Column6>};
+const BlockKernels kAvx2Kernels = {"avx2", subtract3Avx2, subtractProducts<6, Avx2Column6>,
+                                   subtractTile<3, Column3, Avx2Vector, 3, 3>,
+                                   subtractTile<6, Avx2Column6, Avx2Vector, 3, 3>};
 
 }  // namespace lamp
 

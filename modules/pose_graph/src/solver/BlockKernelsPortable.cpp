@@ -1,12 +1,10 @@
 #include "solver/BlockKernel.h"
 #include "solver/BlockProducts.h"
+#include "solver/BlockTiles.h"
 
 namespace lamp {
 
 namespace {
-
-/** Pairs of numbers, which each processor of 64 bits can multiply at once. */
-using Pair = double __attribute__((vector_size(16)));
 
 struct Column6 {
   static constexpr int kAtOnce = 3;
@@ -20,30 +18,22 @@ struct Column6 {
   Pair pairs[3];
 };
 
-struct Column3 {
-  static constexpr int kAtOnce = 3;
+struct PairVector {
+  static constexpr int kSize = 2;
 
-  void load(const double* from) {
-    __builtin_memcpy(&pair, from, sizeof(pair));
-    last = from[2];
-  }
-  void store(double* to) const {
-    __builtin_memcpy(to, &pair, sizeof(pair));
-    to[2] = last;
-  }
-  void subtract(const Column3& column, double factor) {
-    pair -= column.pair * factor;
-    last -= column.last * factor;
-  }
+  void setZero() { pair = Pair{}; }
+  void load(const double* from) { __builtin_memcpy(&pair, from, sizeof(pair)); }
+  void store(double* to) const { __builtin_memcpy(to, &pair, sizeof(pair)); }
+  void add(const PairVector& vector, double factor) { pair += vector.pair * factor; }
 
   Pair pair;
-  double last;
 };
 
 }  // namespace
 
 extern const BlockKernels kPortableKernels;
-const BlockKernels kPortableKernels = {"portable", subtractProducts<3, Column3>,
-                                       subtractProducts<6, Column6>};
+const BlockKernels kPortableKernels = {
+    "portable", subtractProducts<3, Column3>, subtractProducts<6, Column6>,
+    subtractTile<3, Column3, PairVector, 3, 3>, subtractTile<6, Column6, PairVector, 3, 3>};
 
 }  // namespace lamp

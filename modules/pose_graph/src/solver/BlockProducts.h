@@ -7,6 +7,33 @@
 
 namespace lamp {
 
+namespace {
+
+/** Pairs of numbers, which each processor of 64 bits can multiply at once. */
+using Pair = double __attribute__((vector_size(16)));
+
+struct Column3 {
+  static constexpr int kAtOnce = 3;
+
+  void load(const double* from) {
+    __builtin_memcpy(&pair, from, sizeof(pair));
+    last = from[2];
+  }
+  void store(double* to) const {
+    __builtin_memcpy(to, &pair, sizeof(pair));
+    to[2] = last;
+  }
+  void subtract(const Column3& column, double factor) {
+    pair -= column.pair * factor;
+    last -= column.last * factor;
+  }
+
+  Pair pair;
+  double last;
+};
+
+}  // namespace
+
 /** BlockKernels' loop. `Column` holds one column of a block in registers; of `Column::kAtOnce`
  * columns the sums fit there. */
 template <int kSize, class Column>

@@ -61,6 +61,7 @@ void SparseProblem<Space>::build() {
   for (const PoseTerm<Space>& term : terms_) weights.push_back(term.weight);
   const Unknowns unknowns = findUnknowns(graph_, weights);
   row_ = unknowns.row;
+  cholesky_.reset();  // before the next one takes its memory
   equations_ = std::make_unique<NormalEquations<Space>>(terms_, unknowns);
   cholesky_ = std::make_unique<BlockCholesky<Space::kDof>>(equations_->matrix());
   factorized_here_ = false;

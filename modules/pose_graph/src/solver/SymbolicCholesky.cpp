@@ -1,12 +1,17 @@
 #include "solver/SymbolicCholesky.h"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 #include <algorithm>
+#include <utility>
+
+#include "solver/EliminationOrder.h"
 
 namespace lamp {
 
 namespace {
+
+/** Products of blocks for each column from which on nested dissection may save more time than it
+ * takes. */
+constexpr double kWorthDissecting = 300;
 
 /** Many short lists of numbers, without memory of their own for each. */
 class Lists {
@@ -30,26 +35,63 @@ class Lists {
   std::vector<Link> links_;
 };
 
+/** The elimination tree: by place, the column that each column's elimination changes first, -1 for
+ * none (Liu, "A compact row storage scheme for Cholesky factors using elimination trees", ACM TOMS
+ * 1986). */
+std::vector<int> eliminationTree(const std::vector<int>& place,
+                                 const std::vector<BlockPair>& pairs) {
+  const int size = static_cast<int>(place.size());
+  Lists left(size);
+  for (const BlockPair pair : pairs) {
+    const int a = place[pair.row], b = place[pair.column];
+    left.add(std::max(a, b), std::min(a, b));
+  }
+  std::vector<int> parent(size, -1), ancestor(size, -1);
+  for (int column = 0; column < size; ++column)
+    left.forEach(column, [&](int at) {
+      while (ancestor[at] >= 0 && ancestor[at] != column) at = std::exchange(ancestor[at], column);
+      if (ancestor[at] >= 0) return;
+      parent[at] = ancestor[at] = column;
+    });
+  return parent;
+}
+
+/** The new places of columns after which each subtree is in one piece, its root the last. The
+ * elimination does the same work; what can be one panel is side by side. */
+std::vector<int> postorder(const std::vector<int>& parent) {
+  const int size = static_cast<int>(parent.size());
+  std::vector<int> subtree(size, 1), place(size), last_free(size);
+  for (int column = 0; column < size; ++column)
+    if (parent[column] >= 0) subtree[parent[column]] += subtree[column];
+  int last_root = size - 1;
+  for (int column = size - 1; column >= 0; --column) {
+    int& last = parent[column] < 0 ? last_root : last_free[parent[column]];
+    place[column] = last;
+    last_free[column] = last - 1;
+    last -= subtree[column];
+  }
+  return place;
+}
+
 }  // namespace
 
-SymbolicCholesky::SymbolicCholesky(int size, const std::vector<BlockPair>& pairs) : place_(size) {
-  order(pairs);
-  fillColumns(pairs);
-  listRows();
+SymbolicCholesky::SymbolicCholesky(int size, const std::vector<BlockPair>& pairs,
+                                   int max_panel_width) {
+  eliminate(minimumDegreeOrder(size, pairs), pairs);
+  if (products_ > kWorthDissecting * size) {
+    SymbolicCholesky dissected;
+    dissected.eliminate(nestedDissectionOrder(size, pairs), pairs);
+    if (dissected.products_ < products_) *this = std::move(dissected);
+  }
+  joinPanels(max_panel_width);
   findTargets(pairs);
 }
 
-void SymbolicCholesky::order(const std::vector<BlockPair>& pairs) {
-  if (size() == 0) return;
-  std::vector<Eigen::Triplet<char>> entries;
-  for (const BlockPair pair : pairs)
-    entries.emplace_back(std::max(pair.row, pair.column), std::min(pair.row, pair.column), 1);
-  for (int i = 0; i < size(); ++i) entries.emplace_back(i, i, 1);
-  Eigen::SparseMatrix<char> lower(size(), size());
-  lower.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> row_at_place;
-  Eigen::AMDOrdering<int>()(lower.selfadjointView<Eigen::Lower>(), row_at_place);
-  for (int place = 0; place < size(); ++place) place_[row_at_place.indices()[place]] = place;
+void SymbolicCholesky::eliminate(std::vector<int> place, const std::vector<BlockPair>& pairs) {
+  const std::vector<int> new_place = postorder(eliminationTree(place, pairs));
+  for (int& at : place) at = new_place[at];
+  place_ = std::move(place);
+  fillColumns(pairs);
 }
 
 void SymbolicCholesky::fillColumns(const std::vector<BlockPair>& pairs) {
@@ -75,30 +117,31 @@ void SymbolicCholesky::fillColumns(const std::vector<BlockPair>& pairs) {
     });
     std::sort(rows_.begin() + begin, rows_.end());
     column_begin_.push_back(static_cast<int>(rows_.size()));
-    if (columnEnd(column) - columnBegin(column) > 1) children.add(rows_[begin + 1], column);
+    const double height = columnEnd(column) - columnBegin(column);
+    products_ += 0.5 * height * (height + 1);
+    if (height > 1) children.add(rows_[begin + 1], column);
   }
 }
 
-void SymbolicCholesky::listRows() {
-  left_begin_.assign(size() + 1, 0);
-  for (int column = 0; column < size(); ++column)
-    for (int entry = columnBegin(column) + 1; entry < columnEnd(column); ++entry)
-      ++left_begin_[rows_[entry] + 1];
-  for (int row = 0; row < size(); ++row) left_begin_[row + 1] += left_begin_[row];
-  left_.resize(left_begin_.back());
-  std::vector<int> next(left_begin_.begin(), left_begin_.end() - 1);
-  for (int column = 0; column < size(); ++column)
-    for (int entry = columnBegin(column) + 1; entry < columnEnd(column); ++entry)
-      left_[next[rows_[entry]]++] = {column, entry};
+void SymbolicCholesky::joinPanels(int max_width) {
+  const auto height = [&](int column) { return columnEnd(column) - columnBegin(column); };
+  const auto continues = [&](int column) {
+    return panels_.back().width < max_width && height(column - 1) == height(column) + 1 &&
+           rows_[columnBegin(column - 1) + 1] == column;
+  };
+  for (int column = 0; column < size(); ++column) {
+    if (column == 0 || !continues(column))
+      panels_.push_back({column, 0, height(column), columnBegin(column)});
+    Panel& panel = panels_.back();
+    panel_of_.push_back(panels() - 1);
+    panel_entry_.push_back(columnBegin(column) - panel.width++);
+  }
 }
 
 void SymbolicCholesky::findTargets(const std::vector<BlockPair>& pairs) {
   for (const BlockPair pair : pairs) {
     const int row = place_[pair.row], column = place_[pair.column];
-    const auto begin = rows_.begin() + columnBegin(std::min(row, column));
-    const auto end = rows_.begin() + columnEnd(std::min(row, column));
-    const auto found = std::lower_bound(begin, end, std::max(row, column));
-    targets_.push_back({static_cast<int>(found - rows_.begin()), row < column});
+    targets_.push_back({entry(std::max(row, column), std::min(row, column)), row < column});
   }
 }
 

@@ -7,19 +7,16 @@
 namespace lamp {
 
 /** Where the Cholesky factor of a sparse symmetric block matrix has blocks, after rows and columns
- * are reordered for little fill-in (approximate minimum degree on blocks).
+ * are reordered for little fill-in: by approximate minimum degree, or by nested dissection where
+ * that pays.
  *
  * Depends on the structure only: computed once for many matrices. Numbering: "row" is a row of the
- * matrix as given, "place" its position in the order of elimination. */
+ * matrix as given, "place" its position in the order of elimination. Adjacent columns with the same
+ * rows below them make a panel (a supernode, or a part of one). */
 class SymbolicCholesky {
  public:
-  SymbolicCholesky(int size, const std::vector<BlockPair>& pairs);
-
-  /** A block of the factor that lies left of the diagonal of some row. */
-  struct LeftBlock {
-    int column;  ///< its place
-    int entry;   ///< in rows()
-  };
+  /** \param max_panel_width in columns. */
+  SymbolicCholesky(int size, const std::vector<BlockPair>& pairs, int max_panel_width);
 
   int size() const { return static_cast<int>(place_.size()); }
   int place(int row) const { return place_[row]; }
@@ -32,9 +29,17 @@ class SymbolicCholesky {
   /** Places of the rows of all blocks of the factor, column by column. */
   const std::vector<int>& rows() const { return rows_; }
 
-  /** Blocks of a row of the factor left of the diagonal, from left to right. */
-  const LeftBlock* leftBegin(int row) const { return left_.data() + left_begin_[row]; }
-  const LeftBlock* leftEnd(int row) const { return left_.data() + left_begin_[row + 1]; }
+  int panels() const { return static_cast<int>(panels_.size()); }
+  int panelOf(int column) const { return panel_of_[column]; }
+  /** Columns of a panel. */
+  int panelBegin(int panel) const { return panels_[panel].begin; }
+  int panelWidth(int panel) const { return panels_[panel].width; }
+  /** Places of a panel's rows: those of its first column, of which the first are the columns. */
+  const int* panelRows(int panel) const { return rows_.data() + panels_[panel].entry; }
+  int panelHeight(int panel) const { return panels_[panel].height; }
+  /** Entry in a column of the first of panelRows(), from which the others are counted; those above
+   * the diagonal are not stored. */
+  int panelEntry(int column) const { return panel_entry_[column]; }
 
   /** Where each of the pairs lies in the factor. */
   struct Target {
@@ -43,17 +48,26 @@ class SymbolicCholesky {
   };
   const std::vector<Target>& targets() const { return targets_; }
 
+  /** Products of blocks that a factorisation takes. */
+  double products() const { return products_; }
+
  private:
-  void order(const std::vector<BlockPair>& pairs);
+  struct Panel {
+    int begin, width, height, entry;
+  };
+
+  SymbolicCholesky() = default;
+  void eliminate(std::vector<int> place, const std::vector<BlockPair>& pairs);
   void fillColumns(const std::vector<BlockPair>& pairs);
-  void listRows();
+  void joinPanels(int max_width);
   void findTargets(const std::vector<BlockPair>& pairs);
 
   std::vector<int> place_;
   std::vector<int> column_begin_, rows_;
-  std::vector<int> left_begin_;
-  std::vector<LeftBlock> left_;
+  std::vector<Panel> panels_;
+  std::vector<int> panel_of_, panel_entry_;
   std::vector<Target> targets_;
+  double products_ = 0;
 };
 
 }  // namespace lamp
