@@ -130,9 +130,7 @@ class Builder {
     try {
       result_.graph.addEdge(edge);
     } catch (const std::invalid_argument&) {
-      refuse(file_.where(line), isFinite(edge.from_T_to)
-                                    ? "the information matrix is not positive semi-definite"
-                                    : "the measurement is beyond all numbers");
+      refuse(file_.where(line), "the information matrix is not positive semi-definite");
     }
   }
 
@@ -146,9 +144,6 @@ class Builder {
     for (size_t i = 0; i < graph.nodes().size(); ++i) {
       if (!layout.placed(i)) layout.place(i, Pose3::Identity());
       layout.spread();
-      if (!isFinite(layout.poses()[i]))
-        refuse(file_.name,
-               "the edges to node " + std::to_string(result_.ids[i]) + " lead beyond all numbers");
       if (!nodes_.poses().at(result_.ids[i]).vertex)
         graph.node(graph.nodes()[i].id).world_T_base = layout.poses()[i];
     }
@@ -161,8 +156,6 @@ class Builder {
       Landmark& landmark = result_.graph.landmarks()[edge.landmark];
       if (landmark.placed) continue;
       landmark.world_p = result_.graph.node(edge.from).world_T_base * edge.from_T_to.translation();
-      if (!landmark.world_p.allFinite())
-        refuse(file_.name, "the edges to landmark " + landmark.name + " lead beyond all numbers");
       landmark.placed = true;
     }
   }

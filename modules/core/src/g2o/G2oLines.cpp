@@ -35,6 +35,9 @@ constexpr G2oTag kTags[] = {
 };
 constexpr G2oTag kFix{"FIX", kSpace, G2oKind::kFixed, 1, 0};
 
+/** Information times squared positions must stay finite. */
+constexpr double kLargest = 1e60;
+
 using Words = std::vector<std::string>;
 
 /** Puts a small matrix at some axes of an information matrix. */
@@ -141,6 +144,7 @@ class LineReader {
                   ? ""
                   : "; write decimal points, and spaces between numbers"));
     if (!std::isfinite(value)) refuse("'" + word + "' is not finite");
+    if (std::abs(value) > kLargest) refuse("'" + word + "' is too large to compute with");
     return value;
   }
 
