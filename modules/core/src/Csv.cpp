@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "lamp/core/Files.h"
@@ -24,32 +25,57 @@ void appendRow(const std::vector<std::string>& cells, std::string& text) {
   text += "\n";
 }
 
-/** Takes one row off the text, across quoted line breaks. */
-std::vector<std::string> takeRow(const std::string& text, size_t& at) {
-  std::vector<std::string> cells(1);
-  bool in_quotes = false;
-  for (; at < text.size(); ++at) {
-    const char c = text[at];
-    if (in_quotes) {
-      if (c != '"')
-        cells.back() += c;
-      else if (at + 1 < text.size() && text[at + 1] == '"')
-        cells.back() += text[++at];
-      else
-        in_quotes = false;
-    } else if (c == '"') {
-      in_quotes = true;
-    } else if (c == ',') {
-      cells.emplace_back();
-    } else if (c == '\n') {
-      ++at;
-      break;
-    } else if (c != '\r') {
-      cells.back() += c;
+/** Takes rows off a stream, each character once, and knows the line that it is at. */
+class RowReader {
+ public:
+  RowReader(std::istream& in, const std::string& name) : text_(*in.rdbuf()), name_(name) {
+    constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
+    for (const char* mark = kByteOrderMark; *mark && peek() == byte(*mark); ++mark) take();
+  }
+
+  bool atEnd() { return peek() == EOF; }
+  size_t line() const { return line_; }
+
+  /** Across quoted line breaks. */
+  std::vector<std::string> takeRow() {
+    std::vector<std::string> cells(1);
+    for (int c = take(); c != EOF && c != '\n'; c = take()) {
+      if (c == '"')
+        takeQuoted(cells.back());
+      else if (c == ',')
+        cells.emplace_back();
+      else if (c != '\r')
+        cells.back() += static_cast<char>(c);
+    }
+    return cells;
+  }
+
+ private:
+  static int byte(char c) { return static_cast<unsigned char>(c); }
+  int peek() { return text_.sgetc(); }
+  int take() {
+    const int c = text_.sbumpc();
+    line_ += c == '\n' ? 1 : 0;
+    return c;
+  }
+
+  /** From behind the first quote to behind the last. */
+  void takeQuoted(std::string& cell) {
+    const size_t first_line = line_;
+    for (int c = take();; c = take()) {
+      if (c == EOF)
+        throw std::runtime_error(name_ + ":" + std::to_string(first_line) +
+                                 ": a quote is opened here and never closed");
+      if (c == '"' && peek() != '"') return;
+      if (c == '"') take();
+      cell += static_cast<char>(c);
     }
   }
-  return cells;
-}
+
+  std::streambuf& text_;
+  const std::string& name_;
+  size_t line_ = 1;
+};
 
 }  // namespace
 
@@ -60,13 +86,13 @@ std::string CsvTable::text() const {
   return result;
 }
 
-CsvTable CsvTable::fromText(const std::string& text, const std::string& name) {
+CsvTable CsvTable::read(std::istream& in, const std::string& name) {
+  RowReader reader(in, name);
   CsvTable table;
-  size_t at = 0;
-  table.columns = takeRow(text, at);
-  while (at < text.size()) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + at, '\n');
-    auto row = takeRow(text, at);
+  table.columns = reader.takeRow();
+  while (!reader.atEnd()) {
+    const size_t line = reader.line();
+    auto row = reader.takeRow();
     if (row.size() != table.columns.size())
       throw std::runtime_error(name + ":" + std::to_string(line) + ": has " +
                                std::to_string(row.size()) + " cells, the header has " +
@@ -74,6 +100,11 @@ CsvTable CsvTable::fromText(const std::string& text, const std::string& name) {
     table.rows.push_back(std::move(row));
   }
   return table;
+}
+
+CsvTable CsvTable::fromText(const std::string& text, const std::string& name) {
+  std::istringstream in(text);
+  return read(in, name);
 }
 
 CsvTable CsvTable::fromFile(const std::string& path) {

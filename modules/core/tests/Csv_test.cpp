@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <locale>
+#include <streambuf>
 
 #include "TestSupport.h"
 #include "lamp/core/Files.h"
@@ -39,6 +40,46 @@ TEST(Csv, RowOfWrongLengthIsNamedByFileAndLine) {
   // The quoted line break makes the wrong row the fourth line.
   EXPECT_THAT(thrownBy([] { CsvTable::fromText("a,b\n\"1\n\",2\n3\n", "dir/t.csv"); }),
               HasSubstr("dir/t.csv:4: has 1 cells, the header has 2"));
+}
+
+TEST(Csv, QuoteThatIsNeverClosedIsNamedByFileAndLine) {
+  EXPECT_THAT(thrownBy([] { CsvTable::fromText("a,b\n1,\"2\n3,4\n", "dir/t.csv"); }),
+              HasSubstr("dir/t.csv:2: a quote is opened"));
+}
+
+TEST(Csv, ByteOrderMarkIsNoPartOfTheFirstColumn) {
+  const CsvTable table = CsvTable::fromText("\xEF\xBB\xBFid,x\n1,2\n", "t.csv");
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"id", "x"}));
+}
+
+/** A text that counts how many of its characters are taken, and allows no going back. */
+class CountingText : public std::streambuf {
+ public:
+  explicit CountingText(std::string text) : text_(std::move(text)) {}
+  size_t taken = 0;
+
+ protected:
+  int_type underflow() override {
+    return taken < text_.size() ? traits_type::to_int_type(text_[taken]) : traits_type::eof();
+  }
+  int_type uflow() override {
+    const int_type c = underflow();
+    if (c != traits_type::eof()) ++taken;
+    return c;
+  }
+
+ private:
+  const std::string text_;
+};
+
+TEST(Csv, EachCharacterIsTakenOnceHoweverManyRowsThereAre) {
+  CsvTable table{{"a", "b"}, {}};
+  for (int i = 0; i < 2000; ++i) table.rows.push_back({std::to_string(i), "two\nlines"});
+  const std::string text = table.text();
+  CountingText counting(text);
+  std::istream in(&counting);
+  EXPECT_EQ(CsvTable::read(in, "t.csv").rows, table.rows);
+  EXPECT_EQ(counting.taken, text.size());
 }
 
 TEST(Csv, ReadsFilesAndFindsColumnsByName) {

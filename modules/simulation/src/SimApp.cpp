@@ -47,8 +47,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->type_name("FILE.ini");
   app.add_option("--set", arguments.overrides, "Changes one key, e.g. world.robots=8")
       ->type_name("SECTION.KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   auto* keyed = app.add_flag("--keyed", arguments.keyed,
                              "Key nodes only: deskewed, merged, filtered scans (the default)");
   app.add_flag("--raw", arguments.job.raw, "All observations at full rate")->excludes(keyed);

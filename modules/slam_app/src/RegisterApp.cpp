@@ -40,8 +40,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->type_name("CONFIG.ini");
   app.add_option("--set", arguments.overrides, "Overrides one key of the ini")
       ->type_name("SECTION.KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   app.add_option("--json", arguments.json, "Writes the result as JSON; - for stdout")
       ->type_name("FILE");
   app.add_option("--picture", arguments.picture, "Draws both clouds before and after, as PNG")

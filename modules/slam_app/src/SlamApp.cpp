@@ -73,8 +73,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--out", arguments.out, "Folder for the results; new or empty")->type_name("DIR");
   app.add_option("--set", arguments.overrides, "Overrides one key of the ini")
       ->type_name("SECTION.KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   app.add_option("--actions", arguments.actions,
                  "Operator's actions to replay, as a run's own actions.csv")
       ->type_name("FILE.csv");

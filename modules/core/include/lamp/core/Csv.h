@@ -1,6 +1,6 @@
 #pragma once
 
-#include <map>
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -13,8 +13,10 @@ struct CsvTable {
   std::vector<std::vector<std::string>> rows;
 
   std::string text() const;
-  /** \throws std::runtime_error naming file and line if a row's length differs from the header's.
-   */
+  /** Takes each character of the stream once; a byte order mark is skipped. \throws
+   * std::runtime_error naming file and line if a row's length differs from the header's, or a quote
+   * is never closed. \param name of the file, for messages. */
+  static CsvTable read(std::istream& in, const std::string& name);
   static CsvTable fromText(const std::string& text, const std::string& name);
   static CsvTable fromFile(const std::string& path);
 
