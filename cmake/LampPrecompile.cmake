@@ -2,7 +2,7 @@
 # tests (which have other compiler flags). Every file still includes what it uses.
 # What is tested is optimised; the tests themselves would only take longer to compile.
 set(LAMP_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
-file(WRITE ${PROJECT_BINARY_DIR}/precompile.cpp "")
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/precompile.cpp CONTENT "")  # untouched if it is there
 
 function(lamp_precompile target)
   add_library(${target} OBJECT ${PROJECT_BINARY_DIR}/precompile.cpp)

@@ -12,7 +12,7 @@ packages=(
   g++ cmake ninja-build
   libmrpt-maps-dev libmrpt-graphs-dev
   libceres-dev libmetis-dev libeigen3-dev liboctomap-dev libnanoflann-dev
-  libtbb-dev libcli11-dev libembree-dev nlohmann-json3-dev zlib1g-dev liblzf-dev
+  libtbb-dev libcli11-dev libembree-dev nlohmann-json3-dev zlib1g-dev libpng-dev liblzf-dev
   gnuplot-nox # pictures of lamp-eval
   mrpt-common # the recording that demo.sh runs
 )

@@ -6,7 +6,13 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
 #include <map>
+#include <set>
+#include <thread>
 
 #include "Experiment.h"
 #include "Measures.h"
@@ -251,6 +257,32 @@ TEST_F(Simulator, HelpNamesWorldsAndOptions) {
   for (const char* word : {"tunnel: ", "urban: ", "finals: ", "ku: ", "demo: ", "--seed", "--out",
                            "--set", "--raw", "--keyed", "--threads", "--dump-config"})
     EXPECT_THAT(end.out, HasSubstr(word));
+}
+
+/** Names of the files in a folder, empty if there is no such folder. */
+std::set<std::string> filesIn(const std::string& folder) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    names.insert(entry.path().filename());
+  return names;
+}
+
+TEST_F(Simulator, ASignalEndsItAndLeavesNoHalfFile) {
+  const auto has_half_file = [&] {
+    const auto names = filesIn(path("sim"));
+    return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+      return name.find(".tmp") != std::string::npos;
+    });
+  };
+  LampProcess process(LAMP_SIM, {"demo", "--raw", "--out", path("sim")});
+  while (process.isRunning() && !has_half_file())
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  process.signal(SIGTERM);
+  const LampResult end = process.wait();
+  EXPECT_EQ(end.signal, SIGTERM) << end.exit_code;
+  EXPECT_THAT(end.err, HasSubstr("ended by SIGTERM"));
+  EXPECT_FALSE(has_half_file());
 }
 
 }  // namespace

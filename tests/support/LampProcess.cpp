@@ -62,8 +62,8 @@ LampProcess::~LampProcess() {
   ::waitpid(pid_, &status_, 0);
 }
 
-void LampProcess::interrupt() const {
-  ::kill(pid_, SIGINT);
+void LampProcess::signal(int number) const {
+  ::kill(pid_, number);
 }
 
 bool LampProcess::isRunning() {
@@ -76,6 +76,7 @@ LampResult LampProcess::wait() {
   pid_ = 0;
   LampResult result;
   if (WIFEXITED(status_)) result.exit_code = WEXITSTATUS(status_);
+  if (WIFSIGNALED(status_)) result.signal = WTERMSIG(status_);
   result.out = textOf(outputs_ / "out");
   result.err = textOf(outputs_ / "err");
   return result;

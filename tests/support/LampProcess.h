@@ -12,6 +12,7 @@ namespace lamp::test {
 /** How a run of one of our programs ended. */
 struct LampResult {
   int exit_code = -1;  ///< -1 if a signal ended it
+  int signal = 0;      ///< that ended it
   std::string out, err;
 };
 
@@ -26,8 +27,7 @@ class LampProcess {
   LampProcess(const LampProcess&) = delete;
   LampProcess& operator=(const LampProcess&) = delete;
 
-  /** Ctrl-C. */
-  void interrupt() const;
+  void signal(int number) const;
   bool isRunning();
   LampResult wait();
 

@@ -26,10 +26,13 @@ Progress::~Progress() {
   if (shown_) std::cerr << "\r\033[K" << std::flush;
 }
 
+bool Progress::due() const {
+  return on_terminal_ && Clock::now() - last_shown_ >= kInterval;
+}
+
 void Progress::show(double share, const std::string& detail) {
-  const auto now = Clock::now();
-  if (!on_terminal_ || now - last_shown_ < kInterval) return;
-  last_shown_ = now;
+  if (!due()) return;
+  const auto now = last_shown_ = Clock::now();
   shown_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   std::string line = std::to_string(static_cast<int>(100.0 * share)) + " %";

@@ -40,6 +40,21 @@ TEST(RunFolder, IsNotWrittenOver) {
   EXPECT_FALSE(fs::exists(root + "/maps"));
 }
 
+TEST(RunFolder, IsLockedWhileItOrACopyLives) {
+  const std::string root = freshFolder();
+  {
+    RunFolder copy("");
+    {
+      const RunFolder folder = RunFolder::create(root);
+      copy = folder;
+    }
+    EXPECT_THAT(thrownBy([&] { RunFolder::create(root); }),
+                AllOf(HasSubstr("'" + root + "'"), HasSubstr("another program")));
+    EXPECT_TRUE(fs::is_empty(root));
+  }
+  EXPECT_NO_THROW(RunFolder::create(root));
+}
+
 TEST(RunFolder, IsNoFile) {
   const std::string path = freshFolder() + "/file";
   writeTextFile(path, "x");

@@ -6,7 +6,7 @@
 
 namespace lamp {
 
-/** \throws std::runtime_error naming the path. */
+/** \param image in colour. \throws std::runtime_error naming the path. */
 void writePng(const mrpt::img::CImage& image, const std::string& path);
 
 }  // namespace lamp

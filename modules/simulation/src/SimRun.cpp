@@ -130,7 +130,7 @@ class Simulation {
 }  // namespace
 
 std::string simulate(const SimConfig& config, const SimJob& job) {
-  RunFolder::create(job.out);
+  const RunFolder folder = RunFolder::create(job.out);  // locked to the end
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<size_t>(job.threads));
   tbb::task_arena arena(job.threads);

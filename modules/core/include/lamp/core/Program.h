@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <stdexcept>
 
@@ -16,7 +17,12 @@ class UsageError : public std::runtime_error {
 };
 
 /** The frame of every program: reads the command line, runs, and says on stderr what went wrong.
- * \return the exit code: 0; 1 if `run` threw; 2 for wrong use, UsageError or ConfigError. */
-int runProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run);
+ * SIGINT, SIGTERM and SIGHUP end the program and leave no half file.
+ * \param end_early for programs that have something to show before their end: the first signal sets
+ *    it, and only the second one ends the program.
+ * \return the exit code: 0; 1 if `run` threw, or stdout cannot be written; 2 for wrong use,
+ *    UsageError or ConfigError. */
+int runProgram(CLI::App& app, int argc, char** argv, const std::function<void()>& run,
+               std::atomic<bool>* end_early = nullptr);
 
 }  // namespace lamp

@@ -11,6 +11,8 @@ class Progress {
   Progress();
   /** Removes the line, so that other text can follow. */
   ~Progress();
+  /** Whether show() would show anything now: for details that are costly to tell. */
+  bool due() const;
   /** \param share of the work done, 0 to 1; \param detail shown behind the time left. */
   void show(double share, const std::string& detail);
 

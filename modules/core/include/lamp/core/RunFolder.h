@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 namespace lamp {
@@ -9,7 +10,8 @@ class RunFolder {
  public:
   explicit RunFolder(std::string root) : root_(std::move(root)) {}
 
-  /** Makes the folder for a new run. \throws std::runtime_error if it holds anything already, or
+  /** Makes the folder for a new run and locks it while the result or a copy of it lives.
+   * \throws std::runtime_error if it holds anything already, another program has locked it, or it
    *  cannot be written. */
   static RunFolder create(const std::string& root);
   /** Makes the subfolders. Not before there is something to write: a run that fails early leaves an
@@ -37,6 +39,7 @@ class RunFolder {
 
  private:
   std::string root_;
+  std::shared_ptr<const void> lock_;
 };
 
 }  // namespace lamp
