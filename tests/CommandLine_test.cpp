@@ -115,6 +115,21 @@ start_pose = [1 2 3]
                     HasSubstr("--set run.sed=3: [run] has no key 'sed' (did you mean 'seed'?)")));
 }
 
+/** Else it would be taken for another override. */
+TEST(CommandLine, WhatFollowsAnOverrideIsARecording) {
+  const Experiment experiment;
+  const LampResult end =
+      experiment.run({experiment.file("empty.ini", ""), "--set", "run.seed=1", "--set",
+                      "run.seed=2", experiment.path("first.rawlog"), experiment.path("b.rawlog")});
+  EXPECT_EQ(end.exit_code, kFailed);
+  EXPECT_THAT(end.err, HasSubstr(experiment.path("first.rawlog") + ": no such file"));
+  const LampResult registered =
+      runRegister({"--set", "run.seed=1", experiment.path("a.pcd"), experiment.path("b.pcd")});
+  EXPECT_THAT(registered.err, HasSubstr("cannot read '" + experiment.path("a.pcd") + "'"));
+  const LampResult simulated = runSimulator({"--set", "world.robots=2", "no-such-world"});
+  EXPECT_THAT(simulated.err, HasSubstr("no-such-world"));
+}
+
 TEST(CommandLine, MalformedOverride) {
   const Experiment experiment;
   const LampResult end = experiment.run({experiment.file("empty.ini", ""), "--set", "novalue"});

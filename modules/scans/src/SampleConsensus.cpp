@@ -48,7 +48,6 @@ void SampleConsensusOptions::visit(OptionVisitor& v) {
   v("min_sample_distance_m", min_sample_distance_m, "m", "minimum distance between samples",
     kNotNegative);
   v("correspondence_m", correspondence_m, "m", "distances are truncated at this value", kPositive);
-  v("seed", seed, "", "of the samples", kNotNegative);
 }
 
 std::optional<GlobalPose> alignBySamples(const Features& source, const PreparedScan& target,
@@ -56,7 +55,7 @@ std::optional<GlobalPose> alignBySamples(const Features& source, const PreparedS
   const Features& partners = target.features();
   if (source.size() < kSamples || partners.size() < kSamples) return std::nullopt;
   const auto similar = mostSimilar(source, partners, options.similar_keypoints);
-  std::mt19937 random(static_cast<unsigned>(options.seed));
+  std::mt19937 random(options.seed);
   const auto draw = [&](size_t count) { return static_cast<uint32_t>(random() % count); };
   std::optional<GlobalPose> best;
   double least = 0;

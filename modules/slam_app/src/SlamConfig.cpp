@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "lamp/core/Seeded.h"
 #include "lamp/registration/LoopClosureComputation.h"
 
 namespace lamp {
@@ -48,18 +49,20 @@ std::string currentName(const std::string& name) {
   return found == renamed.end() ? name : found->second;
 }
 
-/** \param ini with the stages' sections. \param faults gets names that are unknown, or missing, and
- * wrong options. */
+/** \param ini with the stages' sections. \param seed of stages that are Seeded. \param faults gets
+ * names that are unknown, or missing, and wrong options. */
 std::vector<std::shared_ptr<Stage>> makeStages(const StageKind& kind,
                                                const std::vector<std::string>& names,
-                                               const Ini& ini, Faults& faults) {
+                                               const Ini& ini, uint32_t seed, Faults& faults) {
   const std::string where = wherePipeline(ini, kind.key);
   if (names.empty() && kind.count != StageCount::kAny) faults.add(where, "needs a name");
   if (names.size() > 1 && kind.count == StageCount::kExactlyOne)
     faults.add(where, "takes one name, not " + std::to_string(names.size()));
   std::vector<std::shared_ptr<Stage>> stages;
-  for (const std::string& name : names)
+  for (const std::string& name : names) {
     stages.push_back(makeStage(StageName::parse(name), kind.base, kind.name, where, ini, faults));
+    if (auto* const random = dynamic_cast<Seeded*>(stages.back().get())) random->setSeed(seed);
+  }
   return stages;
 }
 
@@ -209,12 +212,14 @@ void SlamConfig::checkArrivals(Faults& faults) const {
 }
 
 void SlamConfig::checkStages(Faults& faults) const {
-  for (const StageKind& kind : stageKinds()) makeStages(kind, pipeline.*kind.names, ini_, faults);
+  for (const StageKind& kind : stageKinds())
+    makeStages(kind, pipeline.*kind.names, ini_, static_cast<uint32_t>(run.seed), faults);
 }
 
 std::vector<std::shared_ptr<Stage>> SlamConfig::make(const StageKind& kind) const {
   Faults faults;
-  auto stages = makeStages(kind, pipeline.*kind.names, ini_, faults);
+  auto stages =
+      makeStages(kind, pipeline.*kind.names, ini_, static_cast<uint32_t>(run.seed), faults);
   faults.throwIfAny();
   return stages;
 }

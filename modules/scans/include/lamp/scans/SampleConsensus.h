@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "lamp/scans/GlobalAlignment.h"
@@ -12,7 +13,7 @@ struct SampleConsensusOptions {
   int similar_keypoints = 5;
   double min_sample_distance_m = 1.0;
   double correspondence_m = 1.0;
-  int seed = 1;
+  uint32_t seed = 1;  ///< of the samples; no option: stages have it from the run
 
   void visit(OptionVisitor& v);
 };
