@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "lamp/base_station/NodeRegistration.h"
@@ -30,14 +31,14 @@ BaseStation::BaseStation(BaseStationSetup setup, mrpt::system::CTimeLogger& time
       scans_(setup.preparation),
       extra_edges_(std::move(setup.extra_edges)) {}
 
-void BaseStation::receive(const KeyNodePacket& packet) {
+void BaseStation::receive(const KeyNodePacket& packet, const std::atomic<bool>& interrupted) {
   registerNode(packet, graph_);
   scans_.add(packet);
   tracks_.add(packet);
   if (extra_edges_.add(packet.id, packet.extras, tracks_.packets(), graph_)) optimized_all_ = false;
   propose(packet.id);
-  computeRound(static_cast<size_t>(options_.closures_per_round));
-  if (optimizationDue()) optimize();
+  computeRound(static_cast<size_t>(options_.closures_per_round), interrupted);
+  if (optimizationDue() && !interrupted) optimize();
 }
 
 void BaseStation::receive(const RobotEnd& end) {
@@ -61,7 +62,7 @@ std::string BaseStation::apply(const OperatorAction& action, const RobotTable& r
 void BaseStation::finish(const std::atomic<bool>& interrupted) {
   // Each optimisation can bring key nodes together that were too far apart before.
   do {
-    if (!interrupted) computeRound(0);
+    if (!interrupted) computeRound(0, interrupted);
     if (!optimized_all_ && !operator_.frozen()) optimize();
   } while (queue_.size() > 0 && !interrupted);
 }
@@ -90,7 +91,7 @@ bool BaseStation::isWorthTrying(const LoopClosureCandidate& candidate) const {
   return moved.translation().norm() >= options_.retry_distance_m;
 }
 
-void BaseStation::computeRound(size_t budget) {
+void BaseStation::computeRound(size_t budget, const std::atomic<bool>& interrupted) {
   if (queue_.size() == 0) return;
   const MarginalCovariances uncertainty(graph_);
   std::vector<LoopClosureCandidate> candidates;
@@ -112,17 +113,18 @@ void BaseStation::computeRound(size_t budget) {
     const CTimeLoggerEntry timing(timer_, "uncertainty");
     guesses = graphGuesses(graph_, candidates, uncertainty);
   }
-  std::vector<LoopClosureAttempt> attempts(candidates.size());
+  std::vector<std::optional<LoopClosureAttempt>> attempts(candidates.size());
   {
     const CTimeLoggerEntry timing(timer_, "registration");
     tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
+      if (interrupted) return;
       const PreparedScanPtr source = scans_.get(scans_.source(candidates[i]));
       const PreparedScanPtr target = scans_.get(scans_.target(candidates[i]));
       attempts[i] = computation_.compute(*source, *target, guesses[i]);
     });
   }
   for (size_t i = 0; i < candidates.size(); ++i)
-    record(candidates[i], guesses[i], std::move(attempts[i]), i);
+    if (attempts[i]) record(candidates[i], guesses[i], std::move(*attempts[i]), i);
 }
 
 void BaseStation::record(const LoopClosureCandidate& candidate, const Guess& guess,

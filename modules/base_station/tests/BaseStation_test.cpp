@@ -256,6 +256,16 @@ TEST(BaseStation, FinishStopsWhenInterrupted) {
   EXPECT_EQ(station.base.ledger().rows().size(), before);
 }
 
+TEST(BaseStation, StartsNoRegistrationOnceInterrupted) {
+  const Team team;
+  RefusingStation station("closures_per_round = 0\n");
+  const std::atomic<bool> interrupted{true};
+  for (const KeyNodePacket& packet : team.drives[0].packets)
+    station.base.receive(packet, interrupted);
+  EXPECT_GT(station.base.candidates(), 0u);
+  EXPECT_TRUE(station.base.ledger().rows().empty());
+}
+
 TEST(BaseStation, FinishOptimizesWhatIsLeft) {
   const Team team;
   Station station(teamIni("", "optimize_min_loops = 100000\n"));

@@ -47,7 +47,9 @@ class BaseStation : public mrpt::system::COutputLogger {
  public:
   BaseStation(BaseStationSetup setup, mrpt::system::CTimeLogger& timer);
 
-  void receive(const KeyNodePacket& packet);
+  /** \param interrupted may become true at any time; registrations that have not begun are then
+   * left out. */
+  void receive(const KeyNodePacket& packet, const std::atomic<bool>& interrupted = kNever);
   void receive(const RobotEnd& end);
   /** Does what an operator asked for, and optimises. \return `done`, or why it cannot be done. */
   std::string apply(const OperatorAction& action, const RobotTable& robots);
@@ -64,9 +66,11 @@ class BaseStation : public mrpt::system::COutputLogger {
   const RobotTracks& tracks() const { return tracks_; }
 
  private:
+  inline static const std::atomic<bool> kNever{false};
+
   void propose(KeyNodeId id);
   bool isWorthTrying(const LoopClosureCandidate& candidate) const;
-  void computeRound(size_t budget);
+  void computeRound(size_t budget, const std::atomic<bool>& interrupted);
   void record(const LoopClosureCandidate& candidate, const Guess& guess, LoopClosureAttempt attempt,
               size_t rank);
   bool optimizationDue() const;
