@@ -15,6 +15,17 @@ bool isNameCharacter(char c) {
 }
 
 constexpr int kSymbolLetterShift = 56;
+constexpr char kAnchorKey = 'u';
+
+/** One byte a robot, in the order in which they are given out. */
+const std::string& allKeys() {
+  static const std::string all = [] {
+    std::string keys = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+    for (int byte = 0x80; byte <= 0xFF; ++byte) keys += static_cast<char>(byte);
+    return keys;
+  }();
+  return all;
+}
 
 }  // namespace
 
@@ -23,8 +34,8 @@ RobotId RobotTable::add(const std::string& name, char letter) {
     throw std::runtime_error("robot name '" + name + "': use letters, digits, '_' and '-' only");
   if (find(name)) throw std::runtime_error("two robots are named '" + name + "'");
   if (letter == 0) letter = nextLetter();
-  if (letter < 'a' || letter > 'z')
-    throw std::runtime_error("robot '" + name + "': its key must be one letter a-z");
+  if (allKeys().find(letter) == std::string::npos)
+    throw std::runtime_error("robot '" + name + "': its key must be one letter or digit");
   if (letterTaken(letter))
     throw std::runtime_error("robot '" + name + "': the key '" + std::string(1, letter) +
                              "' is taken by another robot");
@@ -50,9 +61,10 @@ bool RobotTable::letterTaken(char letter) const {
 }
 
 char RobotTable::nextLetter() const {
-  for (char c = 'a'; c <= 'z'; ++c)
-    if (c != 'u' && !letterTaken(c)) return c;
-  throw std::runtime_error("more than 25 robots: no letter is left for graph files");
+  for (const char key : allKeys())
+    if (key != kAnchorKey && !letterTaken(key)) return key;
+  throw std::runtime_error("more than " + std::to_string(allKeys().size() - 1) +
+                           " robots: no byte is left for the symbols of their key nodes");
 }
 
 std::string RobotTable::format(KeyNodeId id) const {
@@ -72,7 +84,9 @@ KeyNodeId RobotTable::parse(const std::string& text) const {
 }
 
 uint64_t RobotTable::symbol(KeyNodeId id) const {
-  return (static_cast<uint64_t>(letter(id.robot)) << kSymbolLetterShift) | id.index;
+  return (static_cast<uint64_t>(static_cast<unsigned char>(letter(id.robot)))
+          << kSymbolLetterShift) |
+         id.index;
 }
 
 KeyNodeId RobotTable::fromSymbol(uint64_t symbol) const {

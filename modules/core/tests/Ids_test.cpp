@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 #include <unordered_set>
 
 #include "TestSupport.h"
@@ -37,15 +38,30 @@ TEST(RobotTable, LettersSkipUAndTakenOnes) {
   std::string letters;
   for (int i = 0; i < 24; ++i) letters += robots.letter(robots.add("r" + std::to_string(i)));
   EXPECT_EQ(letters, "abdefghijklmnopqrstvwxyz");
-  EXPECT_THAT(thrownBy([&] { robots.add("one_too_many"); }), HasSubstr("25 robots"));
+  EXPECT_EQ(robots.letter(robots.add("next")), 'A');
   EXPECT_EQ(robots.letter(robots.add("anchors", 'u')), 'u');
+}
+
+TEST(RobotTable, ManyRobotsHaveSymbolsOfTheirOwn) {
+  constexpr int kMany = 189;
+  RobotTable robots;
+  std::set<uint64_t> symbols;
+  for (int i = 0; i < kMany; ++i) {
+    const KeyNodeId id{robots.add("r" + std::to_string(i)), 7};
+    symbols.insert(robots.symbol(id));
+    EXPECT_EQ(robots.fromSymbol(robots.symbol(id)), id);
+  }
+  EXPECT_EQ(symbols.size(), static_cast<size_t>(kMany));
+  EXPECT_EQ(robots.symbol({RobotId{25}, 7}) >> 56, uint64_t{'A'});
+  EXPECT_EQ(robots.symbol({RobotId{188}, 7}), 0xFF00000000000007ULL);
+  EXPECT_THAT(thrownBy([&] { robots.add("one_too_many"); }), HasSubstr("189 robots"));
 }
 
 TEST(RobotTable, RefusesNamesAndLettersThatClashOrAreMalformed) {
   RobotTable robots = twoRobots();
   EXPECT_THAT(thrownBy([&] { robots.add("husky1"); }), HasSubstr("'husky1'"));
   EXPECT_THAT(thrownBy([&] { robots.add("other", 'a'); }), HasSubstr("'a' is taken"));
-  EXPECT_THAT(thrownBy([&] { robots.add("other", 'A'); }), HasSubstr("a-z"));
+  EXPECT_THAT(thrownBy([&] { robots.add("other", '-'); }), HasSubstr("letter or digit"));
   EXPECT_THAT(thrownBy([&] { robots.add("a/b"); }), HasSubstr("'a/b'"));
   EXPECT_THAT(thrownBy([&] { robots.add("a:b"); }), HasSubstr("'a:b'"));
   EXPECT_THAT(thrownBy([&] { robots.add(""); }), HasSubstr("letters"));

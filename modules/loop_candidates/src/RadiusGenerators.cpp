@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
+#include <vector>
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(CandidateGenerator, Stage, lamp)
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(RadiusGenerator, lamp::CandidateGenerator, lamp)
@@ -21,33 +23,49 @@ uint32_t gap(uint32_t a, uint32_t b) {
 
 }  // namespace
 
-std::vector<LoopClosureCandidate> RadiusGenerator::propose(const PoseGraph& graph,
-                                                           KeyNodeId current) const {
+std::vector<RadiusGenerator::Near> RadiusGenerator::nearestOf(const PoseGraph& graph, RobotId robot,
+                                                              KeyNodeId current) const {
   const Limits limits = this->limits();
   const Eigen::Vector3d here = graph.node(current).world_T_base.translation();
-  std::vector<LoopClosureCandidate> candidates;
+  const bool own = robot == current.robot;
+  std::vector<Near> near;
+  for (const KeyNodeId other : graph.robotNodes(robot)) {
+    if (own && gap(other.index, current.index) < static_cast<uint32_t>(limits.min_index_gap))
+      continue;
+    const double distance = (graph.node(other).world_T_base.translation() - here).norm();
+    const double radius =
+        own ? radiusWithin(current.index, other.index) : radiusBetween(current.index);
+    if (distance <= radius) near.emplace_back(distance, other);
+  }
+  std::sort(near.begin(), near.end());
+  if (near.size() > static_cast<size_t>(limits.max_per_robot))
+    near.resize(static_cast<size_t>(limits.max_per_robot));
+  return near;
+}
+
+std::vector<LoopClosureCandidate> RadiusGenerator::propose(const PoseGraph& graph,
+                                                           KeyNodeId current) const {
+  std::map<RobotId, std::vector<Near>> by_robot;
+  std::vector<Near> nearest_of_others;
   for (const RobotId robot : graph.robots()) {
-    const bool own = robot == current.robot;
-    if (!own && !graph.shareFrame(robot, current.robot)) continue;
-    std::vector<std::pair<double, KeyNodeId>> near;
-    for (const KeyNodeId other : graph.robotNodes(robot)) {
-      if (own && gap(other.index, current.index) < static_cast<uint32_t>(limits.min_index_gap))
-        continue;
-      const double distance = (graph.node(other).world_T_base.translation() - here).norm();
-      const double radius =
-          own ? radiusWithin(current.index, other.index) : radiusBetween(current.index);
-      if (distance <= radius) near.emplace_back(distance, other);
-    }
-    std::sort(near.begin(), near.end());
-    if (near.size() > static_cast<size_t>(limits.max_per_robot))
-      near.resize(static_cast<size_t>(limits.max_per_robot));
+    if (!graph.shareFrame(robot, current.robot)) continue;
+    auto near = nearestOf(graph, robot, current);
+    if (near.empty()) continue;
+    if (robot != current.robot) nearest_of_others.push_back(near.front());
+    by_robot.emplace(robot, std::move(near));
+  }
+  std::sort(nearest_of_others.begin(), nearest_of_others.end());
+  for (size_t i = static_cast<size_t>(limits().max_other_robots); i < nearest_of_others.size(); ++i)
+    by_robot.erase(nearest_of_others[i].second.robot);
+
+  std::vector<LoopClosureCandidate> candidates;
+  for (const auto& [robot, near] : by_robot)
     for (const auto& [distance, other] : near) {
       LoopClosureCandidate candidate{other, current, getLoggerName(), 0};
       if (graph.place(candidate.from) > graph.place(candidate.to))
         std::swap(candidate.from, candidate.to);
       candidates.push_back(candidate);
     }
-  }
   return candidates;
 }
 
@@ -60,6 +78,10 @@ void FixedRadiusOptions::visit(OptionVisitor& v) {
   v("max_per_robot", max_per_robot, "",
     "maximum number of candidates per key node and robot, nearest first; more find more loop "
     "closures and take more time",
+    {1});
+  v("max_other_robots", max_other_robots, "",
+    "maximum number of other robots among a key node's candidates, nearest first; bounds the time "
+    "that many robots in one place take",
     {1});
 }
 
@@ -76,6 +98,10 @@ void AdaptiveRadiusOptions::visit(OptionVisitor& v) {
   v("max_per_robot", max_per_robot, "",
     "maximum number of candidates per key node and robot, nearest first; more find more loop "
     "closures and take more time",
+    {1});
+  v("max_other_robots", max_other_robots, "",
+    "maximum number of other robots among a key node's candidates, nearest first; bounds the time "
+    "that many robots in one place take",
     {1});
 }
 

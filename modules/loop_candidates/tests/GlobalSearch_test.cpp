@@ -44,6 +44,22 @@ TEST(GlobalSearch, TriesTheOtherRobotsWholeWay) {
   EXPECT_EQ(tried.size(), 12u);
 }
 
+TEST(GlobalSearch, ManyRobotsAreTriedInTurn) {
+  constexpr uint16_t kRobots = 9;
+  PoseGraph graph;
+  for (uint16_t robot = 0; robot < kRobots; ++robot) addNodes(graph, {robot}, 12, false);
+  GlobalSearch search;
+  search.options.max_other_robots = 3;
+  search.options.max_per_robot = 2;
+  std::set<RobotId> tried;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const auto candidates = search.propose(graph, {RobotId{8}, i});
+    EXPECT_EQ(candidates.size(), 6u);
+    for (const auto& candidate : candidates) tried.insert(candidate.from.robot);
+  }
+  EXPECT_EQ(tried.size(), kRobots - 1u);
+}
+
 TEST(GlobalSearch, TheOlderKeyNodeComesFirst) {
   PoseGraph graph;
   addNodes(graph, kA, 2, false);

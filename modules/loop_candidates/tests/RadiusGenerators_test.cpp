@@ -54,6 +54,21 @@ TEST(FixedRadius, TakesTheNearestBeyondTheIndexGap) {
   EXPECT_EQ(candidates[0].generator, "test");
 }
 
+TEST(FixedRadius, OfManyRobotsTheNearestCount) {
+  constexpr uint16_t kRobots = 20;
+  PoseGraph graph;
+  for (uint16_t robot = 0; robot < kRobots; ++robot)
+    addLine(graph, {robot}, 30, {0, 0.1 * ((7 * robot) % kRobots), 0}, true);
+  auto generator = make<FixedRadius>();
+  generator->options.max_per_robot = 2;
+  generator->options.max_other_robots = 3;
+  const auto candidates = generator->propose(graph, {RobotId{0}, 29});
+  std::multiset<uint16_t> robots;
+  for (const auto& candidate : candidates) robots.insert(candidate.from.robot.value);
+  // 7 * robot is 1, 2 and 3 modulo 20 for these.
+  EXPECT_EQ(robots, (std::multiset<uint16_t>{3, 3, 6, 6, 9, 9}));
+}
+
 TEST(FixedRadius, AnOlderNodeFindsNewerOnes) {
   PoseGraph graph;
   addLine(graph, kA, 30, {0, 0, 0}, false);
