@@ -276,6 +276,25 @@ TEST_F(Outputs, LedgerAccountsForEveryLoop) {
   EXPECT_EQ(verified, summary["loops"]["verified"]);
 }
 
+TEST(PartialOutputs, AMapThatCannotBeWrittenTakesNothingElseWithIt) {
+  const Experiment experiment;
+  SyntheticRobot robot;
+  robot.name = "A";
+  robot.route = shortRoute();
+  const LampResult end =
+      experiment.run({experiment.file("one.ini", iniFor3d("Ply, Pcd, OctoMap")),
+                      experiment.rawlog("A.rawlog", robot.record3d(BoxWorld::building(7)).objects),
+                      "--set", "lamp::Ply.voxel_m=1e-9"});
+  EXPECT_EQ(end.exit_code, 1);
+  EXPECT_THAT(end.err, AllOf(HasSubstr("not everything could be written"), HasSubstr("Ply: ")));
+  EXPECT_THAT(end.out, HasSubstr("map 1 of 1"));
+  const FinishedRun run = experiment.result();
+  for (const char* file : {"maps/map.pcd", "maps/map.bt", "maps/map.ot", "timings.json"})
+    EXPECT_TRUE(run.has(file)) << file;
+  EXPECT_FALSE(run.has("maps/map.ply"));
+  EXPECT_EQ(run.summary()["not_written"].size(), 1u);
+}
+
 TEST_F(CloudOutputs, PictureAndTimingsAreThere) {
   EXPECT_THAT(readFile(run().folder().mapStem(0) + ".png"), testing::StartsWith("\x89PNG"));
   const auto timings = nlohmann::json::parse(readFile(run().folder().timings()));

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string.h>
+
 #include <chrono>
+#include <csignal>
 #include <thread>
 
 #include "Experiment.h"
@@ -85,7 +88,11 @@ Recording longRecording() {
   return long_way.record3d(BoxWorld::building(7));
 }
 
-TEST(Interrupt, LeavesACompleteRunFolder) {
+class EndSignal : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Of, EndSignal, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& signal) { return ::sigabbrev_np(signal.param); });
+
+TEST_P(EndSignal, LeavesACompleteRunFolder) {
   const Experiment experiment;
   const Recording recording = longRecording();
   LampProcess process({experiment.file("slow.ini", slowIni()),
@@ -93,10 +100,11 @@ TEST(Interrupt, LeavesACompleteRunFolder) {
                        "frontend.key_node_distance_m=0.3", "--out", experiment.path("run")});
   const FinishedRun run = experiment.result();
   ASSERT_TRUE(waitUntilBusy(process, run)) << process.wait().err;
-  process.interrupt();
+  process.signal(GetParam());
   const LampResult end = process.wait();
 
   ASSERT_EQ(end.exit_code, 0) << end.err;
+  EXPECT_THAT(end.err, HasSubstr(std::string("SIG") + ::sigabbrev_np(GetParam())));
   EXPECT_THAT(end.out, HasSubstr("interrupted"));
   EXPECT_EQ(run.summary()["interrupted"], true);
   const size_t poses = run.trajectory("A").size();
@@ -109,6 +117,39 @@ TEST(Interrupt, LeavesACompleteRunFolder) {
         "maps/map.bt", "maps/map.ot", "maps/map.png", "summary.json", "timings.json"})
     EXPECT_TRUE(run.has(file)) << file;
   EXPECT_EQ(run.files().size(), 17u) << "and nothing temporary beside them";
+}
+
+TEST(Interrupt, TheSecondSignalEndsTheProgram) {
+  const Experiment experiment;
+  const Recording recording = longRecording();
+  LampProcess process({experiment.file("slow.ini", slowIni()),
+                       experiment.rawlog("A.rawlog", recording.objects), "--threads", "1", "--set",
+                       "frontend.key_node_distance_m=0.3", "--out", experiment.path("run")});
+  ASSERT_TRUE(waitUntilBusy(process, experiment.result())) << process.wait().err;
+  process.signal(SIGTERM);
+  process.signal(SIGHUP);
+  const LampResult end = process.wait();
+  EXPECT_EQ(end.signal, SIGHUP) << end.exit_code << end.err;
+  for (const auto& [file, content] : experiment.result().files())
+    EXPECT_THAT(file, testing::Not(HasSubstr(".tmp")));
+}
+
+TEST(Interrupt, ASecondRunIntoTheSameFolderIsRefused) {
+  const Experiment experiment;
+  const Recording recording = longRecording();
+  const std::vector<std::string> arguments = {experiment.file("slow.ini", slowIni()),
+                                              experiment.rawlog("A.rawlog", recording.objects),
+                                              "--threads",
+                                              "1",
+                                              "--out",
+                                              experiment.path("run")};
+  LampProcess process(arguments);
+  ASSERT_TRUE(waitUntilBusy(process, experiment.result())) << process.wait().err;
+  const LampResult second = runLamp(arguments);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_THAT(second.err, HasSubstr("is being written by another program"));
+  process.signal(SIGINT);
+  EXPECT_EQ(process.wait().exit_code, 0);
 }
 
 TEST(Interrupt, LeavesOutWhatHasNotArrivedYet) {
@@ -124,7 +165,7 @@ TEST(Interrupt, LeavesOutWhatHasNotArrivedYet) {
                        "frontend.key_node_distance_m=0.3", "--set", "input.order=arrival", "--out",
                        experiment.path("run")});
   ASSERT_TRUE(waitUntilBusy(process, experiment.result())) << process.wait().err;
-  process.interrupt();
+  process.signal(SIGINT);
   const LampResult end = process.wait();
   ASSERT_EQ(end.exit_code, 0) << end.err;
   EXPECT_EQ(experiment.result().summary()["interrupted"], true);

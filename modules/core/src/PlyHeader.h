@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <istream>
 #include <optional>
 #include <string>
@@ -32,6 +33,8 @@ struct PlyHeader {
   std::vector<PlyElement> elements;  ///< in the order of the file
   size_t vertices = 0;               ///< which of them are the vertices
   size_t lines = 0;                  ///< of the header itself
+  /** What is to be added to `x y z` to get world coordinates: a line `comment offset X Y Z`. */
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 
   const PlyElement& vertex() const { return elements[vertices]; }
 

@@ -150,6 +150,10 @@ size_t PlyVertices::count() const {
   return header_->vertex().count;
 }
 
+const Eigen::Vector3d& PlyVertices::offset() const {
+  return header_->offset;
+}
+
 bool PlyVertices::has(const std::string& property) const {
   const auto& properties = header_->vertex().properties;
   return std::any_of(properties.begin(), properties.end(), [&](const PlyProperty& p) {

@@ -46,6 +46,21 @@ std::string reversed(T value) {
   return text;
 }
 
+TEST(PlyVertices, TellTheOffsetThatACommentStates) {
+  const auto offsetIn = [](const std::string& comment) {
+    const std::string path = freshFolder() + "/t.ply";
+    writeTextFile(path, "ply\nformat ascii 1.0\n" + comment +
+                            "element vertex 1\nproperty double x\nend_header\n1\n");
+    return PlyVertices(path).offset();
+  };
+  EXPECT_EQ(offsetIn("comment offset 431000 -5412000.25 3e2\n"),
+            Eigen::Vector3d(431000, -5412000.25, 300));
+  for (const char* none : {"", "comment\n", "comment offset\n", "comment offset 1 2\n",
+                           "comment offset 1 2 3 4\n", "comment offset of the lidar: 1 2 3\n",
+                           "comment offset 1 2 nan\n", "comment\toffsets 1 2 3\n"})
+    EXPECT_EQ(offsetIn(none), Eigen::Vector3d(0, 0, 0)) << none;
+}
+
 TEST(PlyVertices, AsciiAndBinaryAreTheSame) {
   const auto ascii = readXyzSeen(header("ascii") + "1 1.5 2.5 -3\n0 4 5 6\n3 0 1 1\n");
   const auto binary = readXyzSeen(header("binary_little_endian") + bytes<uint8_t>(1) + bytes(1.5) +

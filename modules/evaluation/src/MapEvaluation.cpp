@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "Colormap.h"
+#include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 #include "lamp/core/PlyVertices.h"
 
@@ -18,10 +19,12 @@ namespace {
 
 constexpr float kCompleteWithin = 0.2f;
 
-std::vector<Eigen::Vector3f> readCloud(const std::string& path, const Pose3& truth_T_map) {
+std::vector<Eigen::Vector3f> readCloud(const std::string& path, const Pose3& surface_T_world) {
   std::vector<Eigen::Vector3f> points;
-  PlyVertices(path).read({"x", "y", "z"}, [&](const double* v) {
-    points.push_back((truth_T_map * Eigen::Vector3d(v[0], v[1], v[2])).cast<float>());
+  const PlyVertices file(path);
+  const Pose3 surface_T_map = surface_T_world * Eigen::Translation3d(file.offset());
+  file.read({"x", "y", "z"}, [&](const double* v) {
+    points.push_back((surface_T_map * Eigen::Vector3d(v[0], v[1], v[2])).cast<float>());
   });
   if (points.empty()) throw std::runtime_error("'" + path + "' holds no point");
   return points;
@@ -53,11 +56,12 @@ double completenessOf(const std::vector<Eigen::Vector3f>& map, const SurfaceSamp
 
 }  // namespace
 
-MapEvaluation evaluateMap(const std::string& cloud, const Pose3& truth_T_map,
+MapEvaluation evaluateMap(const std::string& cloud, const Pose3& surface_T_world,
                           const TrueSurface& surface) {
   MapEvaluation map;
   map.name = std::filesystem::path(cloud).stem().string();
-  map.points = readCloud(cloud, truth_T_map);
+  map.world_p_origin = surface.samples().world_p_origin;
+  map.points = readCloud(cloud, surface_T_world);
   map.errors_m.resize(map.points.size());
   tbb::parallel_for(size_t{0}, map.points.size(),
                     [&](size_t i) { map.errors_m[i] = surface.distance(map.points[i]); });
@@ -69,7 +73,12 @@ MapEvaluation evaluateMap(const std::string& cloud, const Pose3& truth_T_map,
 void writeErrorPly(const std::string& path, const MapEvaluation& map, double full_scale_m) {
   writeBinaryFile(path, [&](std::ostream& file) {
     file << "ply\nformat binary_little_endian 1.0\ncomment error in metres, coloured from 0 to "
-         << full_scale_m << "\nelement vertex " << map.points.size()
+         << full_scale_m;
+    if (!map.world_p_origin.isZero(0)) {
+      file << "\ncomment offset";
+      for (const double coordinate : map.world_p_origin) file << " " << formatFixed(coordinate, 0);
+    }
+    file << "\nelement vertex " << map.points.size()
          << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red"
             "\nproperty uchar green\nproperty uchar blue\nproperty float error\nend_header\n";
     for (size_t i = 0; i < map.points.size(); ++i) {

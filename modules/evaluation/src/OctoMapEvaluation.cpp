@@ -55,14 +55,28 @@ std::unique_ptr<octomap::OcTree> readTree(const std::string& path) {
   return tree;
 }
 
-/** Asks the octree about places in the frame of the truth. */
+/** The offset from the world in a line `# offset X Y Z`, which OctoMap passes over. */
+Eigen::Vector3d offsetOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line, hash, keyword;
+  while (std::getline(file, line) && line != "data") {
+    std::istringstream words(line);
+    Eigen::Vector3d offset;
+    if (words >> hash >> keyword >> offset.x() >> offset.y() >> offset.z() && hash == "#" &&
+        keyword == "offset")
+      return offset;
+  }
+  return Eigen::Vector3d::Zero();
+}
+
+/** Asks the octree about places in the frame of the true surface. */
 class Inquiry {
  public:
-  Inquiry(const octomap::OcTree& tree, const Pose3& truth_T_map)
-      : tree_(tree), map_T_truth_(truth_T_map.inverse()) {}
+  Inquiry(const octomap::OcTree& tree, const Pose3& surface_T_map)
+      : tree_(tree), map_T_surface_(surface_T_map.inverse()) {}
 
   octomap::point3d inMap(const Eigen::Vector3d& p) const {
-    const Eigen::Vector3f q = (map_T_truth_ * p).cast<float>();
+    const Eigen::Vector3f q = (map_T_surface_ * p).cast<float>();
     return {q.x(), q.y(), q.z()};
   }
   void count(const octomap::point3d& p, OctoMapCounts& counts) const {
@@ -73,7 +87,7 @@ class Inquiry {
 
  private:
   const octomap::OcTree& tree_;
-  const Pose3 map_T_truth_;
+  const Pose3 map_T_surface_;
 };
 
 /** Each voxel of the octree that holds a seen sample counts once. */
@@ -114,11 +128,11 @@ OctoMapCounts drivenFloor(const Inquiry& inquiry, const SurfaceSamples& surface,
 
 }  // namespace
 
-OctoMapEvaluation evaluateOctoMap(const std::string& path, const Pose3& truth_T_map,
+OctoMapEvaluation evaluateOctoMap(const std::string& path, const Pose3& surface_T_world,
                                   const SurfaceSamples& surface,
                                   const std::vector<Eigen::Vector3f>& positions) {
   const auto tree = readTree(path);
-  const Inquiry inquiry(*tree, truth_T_map);
+  const Inquiry inquiry(*tree, surface_T_world * Eigen::Translation3d(offsetOf(path)));
   OctoMapEvaluation evaluation;
   evaluation.resolution_m = tree->getResolution();
   evaluation.free_resolution_m = std::max(kWatertightVoxel, evaluation.resolution_m);

@@ -35,9 +35,9 @@ void addLoops(const TruthFolder& truth, RunEvaluation& evaluation) {
   append(evaluation.loops->warnings, evaluation.notes);
 }
 
-/** `truth_T_map` of a component; none, with a note, where the alignment leaves none. A planar map
+/** `truth_T_world` of a component; none, with a note, where the alignment leaves none. A planar map
  * lies at height zero and is lifted to the mean height of its robots. */
-std::optional<Pose3> mapAlignment(size_t component, RunEvaluation& evaluation) {
+std::optional<Pose3> worldAlignment(size_t component, RunEvaluation& evaluation) {
   const RunFiles::Component& members = evaluation.run.components[component];
   const std::string name = "map " + std::to_string(component + 1);
   const TrajectoryEvaluation& trajectories = *evaluation.trajectories;
@@ -54,12 +54,12 @@ std::optional<Pose3> mapAlignment(size_t component, RunEvaluation& evaluation) {
   return std::nullopt;
 }
 
-void addOctoMap(const std::string& stem, const Pose3& truth_T_map, const TrueWorld& world,
+void addOctoMap(const std::string& stem, const Pose3& surface_T_world, const TrueWorld& world,
                 RunEvaluation& evaluation) {
   for (const char* extension : {".bt", ".ot"}) {
     if (!fs::exists(stem + extension)) continue;
-    evaluation.octomap =
-        evaluateOctoMap(stem + extension, truth_T_map, world.surface.samples(), world.positions);
+    evaluation.octomap = evaluateOctoMap(stem + extension, surface_T_world, world.surface.samples(),
+                                         world.positions);
     if (!evaluation.octomap->no_free_space.empty())
       evaluation.notes.push_back("free space is not scored: " + evaluation.octomap->no_free_space);
     return;
@@ -71,13 +71,15 @@ void addMaps(const TrueWorld& world, RunEvaluation& evaluation) {
     const std::string& stem = evaluation.run.components[i].map;
     const bool has_cloud = !stem.empty() && fs::exists(stem + ".ply");
     if (i > 0 && !has_cloud) continue;
-    const auto truth_T_map = mapAlignment(i, evaluation);
-    if (!truth_T_map) continue;
+    const auto truth_T_world = worldAlignment(i, evaluation);
+    if (!truth_T_world) continue;
+    const SurfaceSamples& samples = world.surface.samples();
+    const Pose3 surface_T_world = Eigen::Translation3d(-samples.world_p_origin) * *truth_T_world;
     if (has_cloud)
-      evaluation.maps.push_back(evaluateMap(stem + ".ply", *truth_T_map, world.surface));
+      evaluation.maps.push_back(evaluateMap(stem + ".ply", surface_T_world, world.surface));
     else
       evaluation.notes.push_back("no " + stem + ".ply: the point cloud is not scored");
-    if (i == 0) addOctoMap(stem, *truth_T_map, world, evaluation);
+    if (i == 0) addOctoMap(stem, surface_T_world, world, evaluation);
   }
 }
 
@@ -85,12 +87,13 @@ void addMaps(const TrueWorld& world, RunEvaluation& evaluation) {
 
 std::shared_ptr<const TrueWorld> TrueWorld::open(const TruthFolder& truth) {
   if (!fs::exists(truth.map())) return nullptr;
+  SurfaceSamples samples = SurfaceSamples::fromPly(truth.map());
   std::vector<Eigen::Vector3f> positions;
   for (const std::string& robot : truth.robots())
     for (const StampedPose& pose : readTum(truth.trajectory(robot)))
-      positions.push_back(pose.pose.translation().cast<float>());
+      positions.push_back((pose.pose.translation() - samples.world_p_origin).cast<float>());
   return std::shared_ptr<const TrueWorld>(
-      new TrueWorld{TrueSurface(SurfaceSamples::fromPly(truth.map())), std::move(positions)});
+      new TrueWorld{TrueSurface(std::move(samples)), std::move(positions)});
 }
 
 RunEvaluation evaluateRun(const std::string& root, const EvaluationInput& input,

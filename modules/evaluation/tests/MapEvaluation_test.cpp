@@ -53,6 +53,40 @@ TEST(MapEvaluation, TheAlignmentMovesTheMap) {
   EXPECT_NEAR(evaluate(map, trueFloor(), truth_T_map).accuracy_m.mean, 0.1, 1e-4);
 }
 
+/** National grids: single precision has steps of half a metre there. */
+TEST(MapEvaluation, FarFromTheOriginOnlyOffsetsDiffer) {
+  const std::string path = freshFolder() + "/map.ply";
+  std::string map = "ply\nformat ascii 1.0\ncomment offset 431000 5412000 0\nelement vertex ",
+              truth = "ply\nformat ascii 1.0\nelement vertex ", map_rows, truth_rows;
+  const Points floor = floorPoints(0.03f);
+  for (const Eigen::Vector3f& p : floor) {
+    const std::string y = std::to_string(p.y() + 345);
+    map_rows += std::to_string(p.x() + 200) + " " + y + " " + std::to_string(p.z()) + "\n";
+    truth_rows += std::to_string(431200.0 + p.x()) + " 5412" + y + " 0 0 0 1\n";
+  }
+  for (auto [text, type] : {std::pair{&map, "float"}, {&truth, "double"}}) {
+    *text += std::to_string(floor.size()) + "\n";
+    for (const char* name : {"x", "y", "z"})
+      *text += std::string("property ") + type + " " + name + "\n";
+  }
+  writeTextFile(path, map + "end_header\n" + map_rows);
+  const std::string truth_path = freshFolder() + "/truth.ply";
+  writeTextFile(truth_path, truth +
+                                "property float nx\nproperty float ny\nproperty float nz\n"
+                                "end_header\n" +
+                                truth_rows);
+  const TrueSurface surface(SurfaceSamples::fromPly(truth_path));
+  const Eigen::Vector3d origin = surface.samples().world_p_origin;
+  EXPECT_EQ(origin, Eigen::Vector3d(431000, 5412000, 0));
+  const auto result = evaluateMap(path, Pose3(Eigen::Translation3d(-origin)), surface);
+  EXPECT_NEAR(result.accuracy_m.mean, 0.03, 1e-4);
+  EXPECT_NEAR(result.accuracy_m.max, 0.03, 1e-4);
+  EXPECT_EQ(result.completeness, 1);
+  const std::string errors = freshFolder() + "/errors.ply";
+  writeErrorPly(errors, result, 0.1);
+  EXPECT_EQ(PlyVertices(errors).offset(), origin);
+}
+
 TEST(MapEvaluation, HalfAMapIsHalfComplete) {
   const auto map = evaluate(floorPoints(0, 2), trueFloor());
   EXPECT_NEAR(map.accuracy_m.max, 0, 1e-6);

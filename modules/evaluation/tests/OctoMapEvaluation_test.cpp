@@ -73,6 +73,17 @@ TEST(OctoMapEvaluation, ARightMapHasNothingWrong) {
   }
 }
 
+TEST(OctoMapEvaluation, AnOffsetInTheHeaderIsPartOfTheMapsPlace) {
+  for (const char* name : {"map.bt", "map.ot"}) {
+    const std::string path = written(rightTree(), name);
+    std::string bytes = readTextFile(path);
+    writeTextFile(path, bytes.insert(bytes.find('\n') + 1, "# offset 431000 5412000 0\n"));
+    const auto e = evaluate(path, Pose3(Eigen::Translation3d(-431000, -5412000, 0)));
+    EXPECT_EQ(e.surface.occupied, kSurface);
+    EXPECT_EQ(e.free_space.free, kTrulyFree);
+  }
+}
+
 TEST(OctoMapEvaluation, CountsVoxelsThatAreWrong) {
   octomap::OcTree tree = rightTree();
   for (int i = 3; i < 10; ++i) tree.setNodeValue(center(i, 0, 5), -2.0f);  // 7 of the wall

@@ -8,15 +8,22 @@
 namespace lamp {
 
 struct CloudPoint {
-  Eigen::Vector3f position;  ///< world, metres
+  Eigen::Vector3f position;  ///< in the frame of the map, metres
   Color color;
   float intensity;
 };
 
+/** What the text header of a cloud file says. */
+struct CloudHeader {
+  size_t count = 0;
+  bool has_intensity = false;
+  std::string offset;   ///< offsetText(): goes into a comment of its own
+  std::string padding;  ///< goes into a comment, so that headers of any count can be equally long
+};
+
 /** How a cloud file looks: a text header, then the points as bytes. */
 struct CloudFormat {
-  /** \param padding goes into a comment, so that headers of any count can be equally long. */
-  std::string (*header)(size_t count, bool has_intensity, const std::string& padding);
+  std::string (*header)(const CloudHeader&);
   /** Appends the bytes of one point. */
   void (*append)(const CloudPoint& point, bool has_intensity, std::string& bytes);
 };

@@ -18,12 +18,23 @@ void setSensorModel(const OctoMapOptions& options, octomap::OcTree& tree) {
   tree.setOccupancyThres(options.occupancy_threshold);
 }
 
-/** What OcTree::writeBinary() does, which also prints to the terminal. */
-void writeBonsai(octomap::OcTree& tree, std::ostream& file) {
+/** OctoMap's own writers have no place for comments, and print to the terminal. */
+void writeHeader(const octomap::OcTree& tree, const std::string& kind, const std::string& offset,
+                 std::ostream& file) {
+  file << "# Octomap OcTree " << kind << "\n";
+  if (!offset.empty()) file << "# " << offset << "\n";
+  file << "id OcTree\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+}
+
+void writeLogOdds(octomap::OcTree& tree, const std::string& offset, std::ostream& file) {
+  writeHeader(tree, "file", offset, file);
+  tree.writeData(file);
+}
+
+void writeBonsai(octomap::OcTree& tree, const std::string& offset, std::ostream& file) {
   tree.toMaxLikelihood();
   tree.prune();
-  file << "# Octomap OcTree binary file\nid OcTree\nsize " << tree.size() << "\nres "
-       << tree.getResolution() << "\ndata\n";
+  writeHeader(tree, "binary file", offset, file);
   if (tree.size() > 0) tree.writeBinaryData(file);
 }
 
@@ -42,10 +53,10 @@ std::vector<std::string> OctoMap::exportMap(const ComponentMap& map, const std::
     MRPT_LOG_WARN_FMT("%zu rays reach further than voxels of %g m can number and are left out",
                       inserter.raysOutOfBounds(), options_.resolution_m);
 
-  const std::string log_odds = stem + ".ot", binary = stem + ".bt";
-  writeBinaryFile(log_odds, [&](std::ostream& file) { tree.write(file); });
+  const std::string log_odds = stem + ".ot", binary = stem + ".bt", offset = offsetText(map);
+  writeBinaryFile(log_odds, [&](std::ostream& file) { writeLogOdds(tree, offset, file); });
   // Second, because it turns the log-odds in the tree into certain values.
-  writeBinaryFile(binary, [&](std::ostream& file) { writeBonsai(tree, file); });
+  writeBinaryFile(binary, [&](std::ostream& file) { writeBonsai(tree, offset, file); });
   return {log_odds, binary};
 }
 

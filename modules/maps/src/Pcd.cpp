@@ -8,14 +8,16 @@ namespace lamp {
 
 namespace {
 
-std::string pcdHeader(size_t count, bool has_intensity, const std::string& padding) {
-  const std::string n = std::to_string(count);
-  const std::string fields = has_intensity ? "FIELDS x y z rgb intensity\nSIZE 4 4 4 4 4\n"
-                                             "TYPE F F F F F\nCOUNT 1 1 1 1 1\n"
-                                           : "FIELDS x y z rgb\nSIZE 4 4 4 4\n"
-                                             "TYPE F F F F\nCOUNT 1 1 1 1\n";
-  return "# .PCD v0.7 - Point Cloud Data file format" + padding + "\nVERSION 0.7\n" + fields +
-         "WIDTH " + n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
+std::string pcdHeader(const CloudHeader& header) {
+  const std::string n = std::to_string(header.count);
+  const std::string offset = header.offset.empty() ? "" : "\n# " + header.offset;
+  const std::string fields = header.has_intensity ? "FIELDS x y z rgb intensity\nSIZE 4 4 4 4 4\n"
+                                                    "TYPE F F F F F\nCOUNT 1 1 1 1 1\n"
+                                                  : "FIELDS x y z rgb\nSIZE 4 4 4 4\n"
+                                                    "TYPE F F F F\nCOUNT 1 1 1 1\n";
+  return "# .PCD v0.7 - Point Cloud Data file format" + header.padding + offset +
+         "\nVERSION 0.7\n" + fields + "WIDTH " + n +
+         "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
 }
 
 /** PCL reads the bits of a float as 0x00rrggbb. */

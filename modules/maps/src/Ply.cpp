@@ -8,13 +8,14 @@ namespace lamp {
 
 namespace {
 
-std::string plyHeader(size_t count, bool has_intensity, const std::string& padding) {
-  std::string header = "ply\nformat binary_little_endian 1.0\ncomment mrpt-lamp" + padding +
-                       "\nelement vertex " + std::to_string(count) +
-                       "\nproperty float x\nproperty float y\nproperty float z"
-                       "\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
-  if (has_intensity) header += "property float intensity\n";
-  return header + "end_header\n";
+std::string plyHeader(const CloudHeader& header) {
+  std::string text = "ply\nformat binary_little_endian 1.0\ncomment mrpt-lamp" + header.padding;
+  if (!header.offset.empty()) text += "\ncomment " + header.offset;
+  text += "\nelement vertex " + std::to_string(header.count) +
+          "\nproperty float x\nproperty float y\nproperty float z"
+          "\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (header.has_intensity) text += "property float intensity\n";
+  return text + "end_header\n";
 }
 
 void appendPlyPoint(const CloudPoint& point, bool has_intensity, std::string& bytes) {

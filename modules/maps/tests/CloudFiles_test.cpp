@@ -68,6 +68,23 @@ class CloudFiles : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Formats, CloudFiles, testing::Values("ply", "pcd"),
                          [](const auto& format) { return std::string(format.param); });
 
+TEST_P(CloudFiles, TheOffsetFromTheWorldStandsInTheHeader) {
+  TestMap test;
+  test.add(0, planarPose(200.25, 345.5, 0), makeScan({{1, 0, 0.5f}, {0.0625f, 2, -1}}));
+  const std::string near_origin = write(test.map);
+  test.map.world_p_origin = {431000, -5412000, 10000000};
+  const std::string far_away = write(test.map);
+  EXPECT_THAT(bytesOf(far_away), HasSubstr("offset 431000 -5412000 10000000\n"));
+  EXPECT_THAT(bytesOf(near_origin), testing::Not(HasSubstr("offset")));
+  const auto points = read(far_away), same = read(near_origin);
+  ASSERT_EQ(points.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(points[i].x, same[i].x);
+    EXPECT_EQ(points[i].z, same[i].z);
+  }
+  EXPECT_EQ(points[1].x - points[0].x, -0.9375f);
+}
+
 TEST_P(CloudFiles, MovesPointsByThePoseAndColoursThemByRobot) {
   TestMap test;
   test.add(0, planarPose(10, 20, M_PI / 2), makeScan({{1, 0, 0.5f}, {0, 2, -1}}));

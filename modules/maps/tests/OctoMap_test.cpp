@@ -38,6 +38,21 @@ std::vector<std::string> write(const ComponentMap& map, const OctoMapOptions& op
   return OctoMap(options).exportMap(map, freshFolder() + "/map");
 }
 
+TEST(OctoMap, TheOffsetFromTheWorldIsACommentThatOctoMapPassesOver) {
+  TestMap test;
+  test.add(0, Pose3(Eigen::Translation3d(0.01, 0.01, 0.01)), makeScan(wall(5.1f)));
+  test.map.world_p_origin = {431000, 5412000, 0};
+  const auto paths = write(test.map);
+  for (const std::string& path : paths)
+    EXPECT_THAT(bytesOf(path), HasSubstr("\n# offset 431000 5412000 0\n"));
+  const auto log_odds = readLogOdds(paths.at(0));
+  ASSERT_TRUE(log_odds);
+  EXPECT_EQ(cellAt(*log_odds, 5.11, 0, 0), Cell::kOccupied);
+  octomap::OcTree binary(0.05);
+  ASSERT_TRUE(binary.readBinary(paths.at(1)));
+  EXPECT_EQ(cellAt(binary, 5.11, 0, 0), Cell::kOccupied);
+}
+
 TEST(OctoMap, IsFreeBeforeOccupiedAtAndUnknownBehindTheWall) {
   TestMap test;
   test.add(0, Pose3(Eigen::Translation3d(0.01, 0.01, 0.01)), makeScan(wall(5.1f)));

@@ -3,11 +3,15 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <new>
 #include <sstream>
 
 #include "Summary.h"
+#include "WorldFrame.h"
 #include "lamp/base_station/LandmarkTable.h"
+#include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 #include "lamp/core/GraphFiles.h"
 #include "lamp/core/Trajectory.h"
@@ -20,31 +24,80 @@ namespace {
 
 using mrpt::system::CTimeLoggerEntry;
 
-void writeTrajectories(const RunFolder& folder, const RunResult& result) {
-  const BaseStation& base = result.base_station;
-  for (const RobotId robot : base.graph().robots()) {
+/** Steps that each write something; one that fails does not keep the next from being done. */
+class Steps {
+ public:
+  void take(const std::string& name, const std::function<void()>& write) {
+    try {
+      write();
+    } catch (const std::bad_alloc&) {
+      failures_.push_back(name + ": not enough memory");
+    } catch (const std::exception& error) {
+      failures_.push_back(name + ": " + error.what());
+    }
+  }
+  const std::vector<std::string>& failures() const { return failures_; }
+
+ private:
+  std::vector<std::string> failures_;
+};
+
+/** From the start pose, which is zero for robots that have none. */
+std::vector<StampedPose> odometryInWorld(const RunResult& result, RobotId robot) {
+  const RobotTracks& tracks = result.base_station.tracks();
+  auto trajectory = tracks.odometryTrajectory(robot);
+  if (tracks.packets().lower_bound({robot, 0})->second.prior)
+    for (StampedPose& pose : trajectory) pose.pose.pretranslate(result.world_p_origin);
+  return trajectory;
+}
+
+void writeTrajectories(const RunFolder& folder, const RunResult& result, const PoseGraph& world,
+                       Steps& steps) {
+  const RobotTracks& tracks = result.base_station.tracks();
+  for (const RobotId robot : world.robots()) {
     const std::string& name = result.robots.name(robot);
-    writeTextFile(folder.trajectory(name), toTum(base.tracks().trajectory(base.graph(), robot)));
-    writeTextFile(folder.keyNodeTrajectory(name), toTum(keyNodeTrajectory(base.graph(), robot)));
-    writeTextFile(folder.odometryTrajectory(name), toTum(base.tracks().odometryTrajectory(robot)));
+    const auto write = [&](const std::string& path, const std::vector<StampedPose>& trajectory) {
+      steps.take("trajectories", [&] { writeTextFile(path, toTum(trajectory)); });
+    };
+    write(folder.trajectory(name), tracks.trajectory(world, robot));
+    write(folder.keyNodeTrajectory(name), keyNodeTrajectory(world, robot));
+    write(folder.odometryTrajectory(name), odometryInWorld(result, robot));
   }
 }
 
-void writeKeyNodes(const RunFolder& folder, const RunResult& result) {
+void writeKeyNodes(const RunFolder& folder, const RunResult& result, Steps& steps) {
   const BaseStation& base = result.base_station;
   for (const RobotId robot : base.graph().robots()) {
     std::vector<KeyNodePacket> packets;
     for (const KeyNodeId id : base.graph().robotNodes(robot))
       packets.push_back(base.tracks().packets().at(id));
     const std::string& name = result.robots.name(robot);
-    writeKeyNodeRawlog(folder.keyNodes(name), name, packets);
+    steps.take("keyed scans", [&] { writeKeyNodeRawlog(folder.keyNodes(name), name, packets); });
   }
+}
+
+void writeTables(const RunFolder& folder, const RunResult& result, const PoseGraph& world,
+                 Steps& steps) {
+  const BaseStation& base = result.base_station;
+  const auto write = [&](const std::string& path, const std::function<std::string()>& text) {
+    steps.take("tables", [&] { writeTextFile(path, text()); });
+  };
+  write(folder.config(), [&] { return result.config.text(); });
+  write(folder.graphG2o(), [&] { return toG2o(world); });
+  write(folder.graphMrpt(), [&] { return toMrptGraph(world); });
+  write(folder.graphIds(), [&] { return toGraphIdsCsv(world, result.robots); });
+  write(folder.loops(), [&] { return base.ledger().loops(base.graph(), result.robots).text(); });
+  write(folder.verdicts(), [&] { return base.ledger().verdicts().text(); });
+  write(folder.actions(), [&] { return toCsv(base.actions()).text(); });
+  if (!world.landmarks().empty())
+    write(folder.artifacts(), [&] { return landmarkTable(world, result.robots).text(); });
 }
 
 ComponentMap makeMap(const RunResult& result, const Component& component) {
   const BaseStation& base = result.base_station;
   ComponentMap map;
   map.robots = &result.robots;
+  map.world_p_origin = originOf(component, base.graph(), result.world_p_origin);
   for (const KeyNodeId id : component.nodes) {
     const Node& node = base.graph().node(id);
     map.key_nodes.push_back(
@@ -65,7 +118,7 @@ ComponentMap makeMap(const RunResult& result, const Component& component) {
 }
 
 void writeMaps(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer,
-               const WriteProgress& progress) {
+               const WriteProgress& progress, Steps& steps) {
   const auto components = result.base_station.graph().components();
   const auto exporters = result.config.make<MapExporter>();
   size_t written = 0;
@@ -76,7 +129,8 @@ void writeMaps(const RunFolder& folder, const RunResult& result, mrpt::system::C
                "writing map " + std::to_string(rank + 1) + " of " +
                    std::to_string(components.size()) + ": " + exporter->getLoggerName());
       const CTimeLoggerEntry timing(timer, ("maps." + exporter->getLoggerName()).c_str());
-      exporter->exportMap(map, folder.mapStem(rank));
+      steps.take(exporter->getLoggerName(),
+                 [&] { exporter->exportMap(map, folder.mapStem(rank)); });
     }
   }
 }
@@ -89,26 +143,22 @@ std::string names(const RobotTable& robots, const std::vector<RobotId>& ids) {
 
 }  // namespace
 
-void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer,
-              const WriteProgress& progress) {
-  const BaseStation& base = result.base_station;
+std::vector<std::string> writeRun(const RunFolder& folder, const RunResult& result,
+                                  mrpt::system::CTimeLogger& timer, const WriteProgress& progress) {
   folder.createSubfolders();
+  Steps steps;
   {
     const CTimeLoggerEntry timing(timer, "run_folder");
-    writeTextFile(folder.config(), result.config.text());
-    writeTrajectories(folder, result);
-    writeTextFile(folder.graphG2o(), toG2o(base.graph()));
-    writeTextFile(folder.graphMrpt(), toMrptGraph(base.graph()));
-    writeTextFile(folder.graphIds(), toGraphIdsCsv(base.graph(), result.robots));
-    writeTextFile(folder.loops(), base.ledger().loops(base.graph(), result.robots).text());
-    writeTextFile(folder.verdicts(), base.ledger().verdicts().text());
-    writeTextFile(folder.actions(), toCsv(base.actions()).text());
-    if (!base.graph().landmarks().empty())
-      writeTextFile(folder.artifacts(), landmarkTable(base.graph(), result.robots).text());
-    writeKeyNodes(folder, result);
+    const PoseGraph world = inWorldFrame(result.base_station.graph(), result.world_p_origin);
+    writeTables(folder, result, world, steps);
+    writeTrajectories(folder, result, world, steps);
+    writeKeyNodes(folder, result, steps);
   }
-  writeMaps(folder, result, timer, progress);
-  writeTextFile(folder.summary(), summarize(result).dump(2) + "\n");
+  writeMaps(folder, result, timer, progress, steps);
+  steps.take("summary", [&] {
+    writeTextFile(folder.summary(), summarize(result, steps.failures()).dump(2) + "\n");
+  });
+  return steps.failures();
 }
 
 void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer,
@@ -157,6 +207,13 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
       text << result.robots.name(frames.a) << " and " << result.robots.name(frames.b) << ": of "
            << frames.loops << " loop closures between them " << frames.agreeing
            << " agree, each with key nodes of its own; " << frames.needed << " are needed.\n";
+  if (!result.world_p_origin.isZero(0)) {
+    text
+        << "The maps are in a frame of their own near the robots: their files and summary.json say "
+           "what to add for world coordinates:";
+    for (const double coordinate : result.world_p_origin) text << " " << formatFixed(coordinate, 0);
+    text << " m\n";
+  }
   if (result.interrupted) text << "The run was interrupted: this is the map up to there.\n";
   return text.str();
 }

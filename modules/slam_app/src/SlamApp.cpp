@@ -1,7 +1,5 @@
 #include "lamp/slam_app/SlamApp.h"
 
-#include <signal.h>
-
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <iostream>
@@ -18,12 +16,6 @@ namespace {
 
 std::atomic<bool> interrupted{false};
 
-/** The first Ctrl-C ends the run with what there is, the second one ends the program. */
-void onInterrupt(int signal) {
-  interrupted = true;
-  ::signal(signal, SIG_DFL);
-}
-
 /** MRPT's loggers print warnings on stdout, which is for results. While it lives, stderr gets what
  * is written to stdout. */
 class StdoutToStderr {
@@ -37,7 +29,7 @@ class StdoutToStderr {
   std::streambuf* const stdout_;
 };
 
-std::string runLogged(SlamRun& slam) {
+SlamRun::Outcome runLogged(SlamRun& slam) {
   const StdoutToStderr logs;
   return slam.run();
 }
@@ -127,10 +119,14 @@ void run(const Arguments& arguments) {
   if (arguments.out.empty()) throw UsageError("say where the results go: --out DIR");
   SlamRun::Job job{arguments.out, arguments.threads, {}};
   if (!arguments.actions.empty()) job.actions = readActions(arguments.actions);
-  ::signal(SIGINT, onInterrupt);
   SlamRun slam(std::move(config), std::move(job), interrupted);
   slam.setMinLoggingLevel(kLevels.at(arguments.log));
-  std::cout << runLogged(slam);
+  const SlamRun::Outcome outcome = runLogged(slam);
+  std::cout << outcome.text;
+  if (outcome.not_written.empty()) return;
+  std::string text = "not everything could be written to '" + arguments.out + "':";
+  for (const std::string& failure : outcome.not_written) text += "\n  " + failure;
+  throw std::runtime_error(text);
 }
 
 }  // namespace
@@ -139,7 +135,8 @@ int slamApp(int argc, char** argv) {
   Arguments arguments;
   CLI::App app("", "lamp-slam");
   describe(app, arguments);
-  return runProgram(app, argc, argv, [&] { run(arguments); });
+  return runProgram(
+      app, argc, argv, [&] { run(arguments); }, &interrupted);
 }
 
 }  // namespace lamp

@@ -12,6 +12,7 @@
 #include "Delivery.h"
 #include "FrontEndTeam.h"
 #include "TeamArrivals.h"
+#include "WorldFrame.h"
 #include "lamp/base_station/BaseStation.h"
 #include "lamp/core/Progress.h"
 #include "lamp/input/RawlogSource.h"
@@ -105,6 +106,8 @@ std::string explainEmptyRun(const std::vector<FrontEndReport>& reports, const Ro
 SlamRun::SlamRun(SlamConfig config, Job job, const std::atomic<bool>& interrupted)
     : COutputLogger("lamp-slam"),
       config_(std::move(config)),
+      world_p_origin_(localOrigin(config_)),
+      local_(inLocalFrame(config_, world_p_origin_)),
       job_(std::move(job)),
       interrupted_(interrupted) {}
 
@@ -125,7 +128,7 @@ void SlamRun::act(BaseStation& base, const RobotTable& robots, bool all) {
   }
 }
 
-std::string SlamRun::run() {
+SlamRun::Outcome SlamRun::run() {
   RobotTable robots;
   RawlogSource source(config_.input.rawlogs, config_.robots, robots);
   requireArrivals(config_, source.robots());
@@ -136,23 +139,27 @@ std::string SlamRun::run() {
                                          static_cast<size_t>(job_.threads));
   CTimeLogger timer(true, "lamp-slam");
   timer.setMinLoggingLevel(mrpt::system::LVL_ERROR);  // it would print itself when destroyed
-  BaseStation base_station(config_.makeBaseStationSetup(), timer);
+  BaseStation base_station(local_.makeBaseStationSetup(), timer);
   base_station.setMinLoggingLevel(getMinLoggingLevel());
 
-  FrontEndTeam team(config_, queue);
+  FrontEndTeam team(local_, queue);
   {
     Progress progress;
     const CTimeLoggerEntry timing(timer, "run");
-    FrontEndThread front_end(config_, source, team, queue, interrupted_);
+    FrontEndThread front_end(local_, source, team, queue, interrupted_);
     tbb::task_arena arena(job_.threads);
     arena.execute([&] {
       while (const auto message = interrupted_ ? std::nullopt : delivery.receive()) {
-        std::visit([&](const auto& content) { base_station.receive(content); }, *message);
+        if (const auto* packet = std::get_if<KeyNodePacket>(&*message))
+          base_station.receive(*packet, interrupted_);
+        else
+          base_station.receive(std::get<RobotEnd>(*message));
         if (actionDue(base_station)) {
           const auto paused = front_end.pause();
           act(base_station, robots, false);
         }
-        progress.show(front_end.progress() * delivery.share(), describeLoops(base_station));
+        if (progress.due())
+          progress.show(front_end.progress() * delivery.share(), describeLoops(base_station));
       }
       queue.closeReceiver();  // after Ctrl-C the front end may be waiting for room in the queue
       base_station.finish(interrupted_);
@@ -162,19 +169,28 @@ std::string SlamRun::run() {
     front_end.join();
   }
 
-  RunResult result{config_, robots, base_station, team.reports(), source.warnings(), interrupted_};
+  const RunResult result{config_,           robots,       base_station,   team.reports(),
+                         source.warnings(), interrupted_, world_p_origin_};
+  if (base_station.graph().nodes().empty() && interrupted_)
+    throw std::runtime_error("interrupted before the first key node: there is nothing to map");
   if (base_station.graph().nodes().empty())
     throw std::runtime_error(explainEmptyRun(result.reports, robots, result.input_warnings));
   warn(result.input_warnings);
   for (const FrontEndReport& report : result.reports)
     warn(report.warnings, "robot '" + robots.name(report.robot) + "': ");
+  Outcome outcome{describeRun(folder, result), {}};
   {
     Progress progress;
-    writeRun(folder, result, timer,
-             [&](double share, const std::string& step) { progress.show(share, step); });
+    outcome.not_written =
+        writeRun(folder, result, timer,
+                 [&](double share, const std::string& step) { progress.show(share, step); });
   }
-  writeTimings(folder, timer, base_station.preparation(), job_.threads);
-  return describeRun(folder, result);
+  try {
+    writeTimings(folder, timer, base_station.preparation(), job_.threads);
+  } catch (const std::exception& error) {
+    outcome.not_written.emplace_back(error.what());
+  }
+  return outcome;
 }
 
 }  // namespace lamp

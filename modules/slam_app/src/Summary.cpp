@@ -3,7 +3,9 @@
 #include <mrpt/version.h>
 
 #include <algorithm>
+#include <cctype>
 
+#include "WorldFrame.h"
 #include "lamp/core/Version.h"
 
 namespace lamp {
@@ -19,12 +21,18 @@ double length(const std::vector<StampedPose>& trajectory) {
   return sum;
 }
 
+/** A letter or digit as such, any other byte as its number. */
+std::string keyText(char key) {
+  const auto byte = static_cast<unsigned char>(key);
+  return std::isalnum(byte) ? std::string(1, key) : std::to_string(byte);
+}
+
 Json robotSummary(const RunResult& result, RobotId robot) {
   const BaseStation& base = result.base_station;
   const auto& nodes = base.graph().robotNodes(robot);
   Json json;
   json["name"] = result.robots.name(robot);
-  json["key"] = std::string(1, result.robots.letter(robot));
+  json["key"] = keyText(result.robots.letter(robot));
   json["key_nodes"] = nodes.size();
   json["planar"] = !nodes.empty() && base.graph().node(nodes.front()).planar;
   json["start_pose_known"] =
@@ -47,6 +55,9 @@ Json componentSummary(const RunResult& result, const Component& component, size_
   const ComponentLoops loops = countLoops(result.base_station.graph(), component);
   Json json;
   json["map"] = RunFolder("").mapStem(rank).substr(1);
+  const Eigen::Vector3d origin =
+      originOf(component, result.base_station.graph(), result.world_p_origin);
+  json["map_offset_m"] = {origin.x(), origin.y(), origin.z()};
   json["robots"] = Json::array();
   for (const RobotId robot : component.robots) json["robots"].push_back(result.robots.name(robot));
   json["key_nodes"] = component.nodes.size();
@@ -98,7 +109,7 @@ Json optimizationSummary(const RunResult& result) {
 
 }  // namespace
 
-Json summarize(const RunResult& result) {
+Json summarize(const RunResult& result, const std::vector<std::string>& not_written) {
   const BaseStation& base = result.base_station;
   const LoopCounts loops = countLoops(base);
   Json json;
@@ -122,6 +133,7 @@ Json summarize(const RunResult& result) {
   for (size_t rank = 0; rank < components.size(); ++rank)
     json["components"].push_back(componentSummary(result, components[rank], rank));
   json["warnings"] = result.input_warnings;
+  json["not_written"] = not_written;
   return json;
 }
 

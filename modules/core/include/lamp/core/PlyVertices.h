@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <istream>
 #include <memory>
@@ -30,6 +31,8 @@ class PlyVertices {
 
   size_t count() const;
   bool has(const std::string& property) const;
+  /** What is to be added to `x y z` to get world coordinates: a line `comment offset X Y Z`. */
+  const Eigen::Vector3d& offset() const;
   /** Calls `take` for each vertex with the named properties' values, in that order.
    * \throws std::runtime_error naming the file, and the line of a text, if it has no such property,
    * ends early, or a value is no finite number where that is refused. */

@@ -26,10 +26,10 @@ struct OctoMapEvaluation {
   std::string no_free_space;     ///< why free space was not judged; empty if it was
 };
 
-/** \param tree path of a `.bt` or `.ot` file. \param truth_T_map the alignment.
- *  \param positions of the robots' bases, true, world frame.
+/** \param tree path of a `.bt` or `.ot` file. \param surface_T_world the alignment.
+ *  \param positions of the robots' bases, true, in the surface's frame.
  *  \throws std::runtime_error naming the file if it is no octree. */
-OctoMapEvaluation evaluateOctoMap(const std::string& tree, const Pose3& truth_T_map,
+OctoMapEvaluation evaluateOctoMap(const std::string& tree, const Pose3& surface_T_world,
                                   const SurfaceSamples& surface,
                                   const std::vector<Eigen::Vector3f>& positions);
 

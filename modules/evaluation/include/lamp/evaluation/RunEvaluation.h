@@ -17,7 +17,7 @@ namespace lamp::evaluation {
 /** The true surface, and where the robots truly were. */
 struct TrueWorld {
   TrueSurface surface;
-  std::vector<Eigen::Vector3f> positions;  ///< of all robots' bases, world frame, metres
+  std::vector<Eigen::Vector3f> positions;  ///< of all robots' bases, in the surface's frame, metres
 
   /** Null if the truth has no map. \throws std::runtime_error if a file is malformed. */
   static std::shared_ptr<const TrueWorld> open(const TruthFolder& truth);

@@ -9,11 +9,14 @@
 
 namespace lamp::evaluation {
 
-/** Samples of the true surface, about 0.1 m apart, world frame. */
+/** Samples of the true surface, about 0.1 m apart. Their frame has the axes of the world. */
 struct SurfaceSamples {
   std::vector<Eigen::Vector3f> points;   ///< metres
   std::vector<Eigen::Vector3f> normals;  ///< unit length, into free space
   std::vector<uint8_t> seen;             ///< 1 if any scan of the recording saw the sample
+  /** World coordinates of the samples' origin, metres: what is this far from the world's origin has
+   * no place in single precision. Zero within a kilometre. */
+  Eigen::Vector3d world_p_origin = Eigen::Vector3d::Zero();
 
   /** Reads `x y z nx ny nz` and, where there is one, `seen` of a PLY file; without it all count as
    * seen. 25 bytes a sample. \throws std::runtime_error if the file is malformed or empty, or no

@@ -12,7 +12,7 @@
 
 namespace lamp {
 
-/** A key node with its keyed scan at its optimised pose. */
+/** A key node with its keyed scan at its optimised pose, in the frame of the map. */
 struct MapKeyNode {
   KeyNodeId id;
   double stamp = 0;
@@ -28,12 +28,17 @@ struct MapTrack {
 
 /** A loop closure between two key nodes of the map. */
 struct MapLoop {
-  Eigen::Vector3d from, to;  ///< world, metres
+  Eigen::Vector3d from, to;  ///< in the frame of the map, metres
   Verdict verdict = Verdict::kPending;
 };
 
-/** Everything that a map of one component is made of. */
+/** Everything that a map of one component is made of. The frame of the map has the axes of the
+ * world and an origin near the robots: most map formats have single precision, which is half a
+ * metre at the coordinates of a national grid. */
 struct ComponentMap {
+  /** World coordinates of the map's origin, metres; whole numbers. Exporters write it into their
+   * files as data. */
+  Eigen::Vector3d world_p_origin = Eigen::Vector3d::Zero();
   std::vector<MapKeyNode> key_nodes;  ///< in KeyNodeId order
   std::vector<MapTrack> tracks;       ///< in RobotId order
   std::vector<MapLoop> loops;

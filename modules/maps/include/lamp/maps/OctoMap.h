@@ -32,7 +32,8 @@ struct OctoMapOptions {
 };
 
 /** `<stem>.ot` (log-odds) and `<stem>.bt` (occupied, free, unknown): an occupancy octree after
- * Hornung et al., "OctoMap", Autonomous Robots 2013. World frame, metres.
+ * Hornung et al., "OctoMap", Autonomous Robots 2013. Frame of the map,
+ * metres; its offset from the world in a line `# offset X Y Z`.
  *
  * Each scan changes a voxel once; where one ray of the scan ends and others pass, the end wins.
  * Rays start at the origin of the sensor that saw the point. */

@@ -8,9 +8,10 @@
 
 namespace lamp {
 
-/** `<stem>.pcd`: all keyed scans at the optimised poses as one binary cloud for PCL. World frame,
- * metres; `rgb` is the robot's colour, packed as PCL does; `intensity` is there if any scan has it
- * and is NaN for the points of scans that have none. */
+/** `<stem>.pcd`: all keyed scans at the optimised poses as one binary cloud for PCL. Frame of
+ * the map, metres; its offset from the world in a line `# offset X Y Z`; `rgb` is the robot's
+ * colour, packed as PCL does; `intensity` is there if any scan has it and is NaN for the points of
+ * scans that have none. */
 class Pcd : public MapExporter {
   DEFINE_MRPT_OBJECT(Pcd, lamp)
 

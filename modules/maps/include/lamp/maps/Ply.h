@@ -8,9 +8,10 @@
 
 namespace lamp {
 
-/** `<stem>.ply`: all keyed scans at the optimised poses as one binary little-endian cloud. World
- * frame, metres; `red green blue` is the robot's colour; `intensity` is there if any scan has it
- * and is NaN for the points of scans that have none. */
+/** `<stem>.ply`: all keyed scans at the optimised poses as one binary little-endian cloud.
+ * Frame of the map, metres; its offset from the world in a line `comment offset X Y Z`; `red green
+ * blue` is the robot's colour; `intensity` is there if any scan has it and is NaN for the points of
+ * scans that have none. */
 class Ply : public MapExporter {
   DEFINE_MRPT_OBJECT(Ply, lamp)
 

@@ -28,14 +28,19 @@ struct RunResult {
   std::vector<FrontEndReport> reports;
   std::vector<std::string> input_warnings;
   bool interrupted = false;
+  /** World coordinates of the origin of the local frame that the base station works in. */
+  Eigen::Vector3d world_p_origin = Eigen::Vector3d::Zero();
 };
 
 /** Called before each long step with the share of the writing that is done and what comes. */
 using WriteProgress = std::function<void(double share, const std::string& step)>;
 
-/** Writes all files of docs/run-folder.md but timings.json, which comes last. */
-void writeRun(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer,
-              const WriteProgress& progress);
+/** Writes all files of docs/run-folder.md but timings.json, which comes last. A file that cannot be
+ * written does not keep the others from being written.
+ * \return what was not written and why; empty if all was. \throws std::runtime_error if the folder
+ * takes nothing at all. */
+std::vector<std::string> writeRun(const RunFolder& folder, const RunResult& result,
+                                  mrpt::system::CTimeLogger& timer, const WriteProgress& progress);
 
 /** Seconds per stage, peak memory and threads; the one file that differs from run to run. */
 void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer,

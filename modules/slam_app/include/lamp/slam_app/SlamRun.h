@@ -29,9 +29,14 @@ class SlamRun : public mrpt::system::COutputLogger {
    */
   SlamRun(SlamConfig config, Job job, const std::atomic<bool>& interrupted);
 
-  /** \return what was found, for the user.
-   *  \throws std::runtime_error if there is nothing to map, or a file cannot be read or written. */
-  std::string run();
+  struct Outcome {
+    std::string text;                      ///< what was found, for the user
+    std::vector<std::string> not_written;  ///< results that are missing, and why
+  };
+
+  /** \throws std::runtime_error if there is nothing to map, a recording cannot be read, or nothing
+   * at all can be written. */
+  Outcome run();
 
  private:
   bool actionDue(const BaseStation& base) const;
@@ -40,6 +45,8 @@ class SlamRun : public mrpt::system::COutputLogger {
   void warn(const std::vector<std::string>& warnings, const std::string& prefix = "");
 
   SlamConfig config_;
+  const Eigen::Vector3d world_p_origin_;  ///< of the local frame that all stages work in
+  const SlamConfig local_;                ///< the configuration in that frame
   const Job job_;
   size_t next_action_ = 0;
   const std::atomic<bool>& interrupted_;
