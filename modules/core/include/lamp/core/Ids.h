@@ -34,12 +34,12 @@ struct KeyNodeId {
 
 /** Names and letters of the robots, in the order of the ini, the command line, then the recording.
  *
- * Letters make GTSAM's 64-bit `Symbol` (letter in the top byte, index below), which NeBula's data
- * use. `u` is never given out by itself: it stands for UWB anchors there.
+ * Letters make GTSAM's 64-bit `Symbol` (in the top byte, index below), as in NeBula's data: a-z but
+ * `u`, which stands for UWB anchors there, A-Z, 0-9, then the bytes from 0x80 on; 189 robots.
  */
 class RobotTable {
  public:
-  /** \param letter 'a'..'z', or 0 for the next free one.
+  /** \param letter a letter or digit, or 0 for the next free one.
    *  \throws std::runtime_error if the name or letter is taken, or the name has characters outside
    *  `[A-Za-z0-9_-]`. */
   RobotId add(const std::string& name, char letter = 0);
