@@ -1,6 +1,7 @@
 #include "RewindableStream.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -31,7 +32,7 @@ uint64_t sizeOfFile(const std::string& path) {
 
 RewindableStream::RewindableStream(const std::string& path) : file_size_(sizeOfFile(path)) {
   file_.reset(gzopen(path.c_str(), "rb"));
-  if (!file_) throw std::runtime_error(path + ": cannot be opened; check its permissions");
+  if (!file_) throw std::runtime_error(path + ": cannot be opened: " + std::strerror(errno));
   gzbuffer(file_.get(), kChunk);
 }
 
