@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "ApertureCheck.h"
 #include "StandstillCheck.h"
 #include "lamp/core/Csv.h"
 
@@ -27,6 +28,25 @@ constexpr double kFailedRadPerS = 10.0 * M_PI / 180.0;
 /** The start pose, or where there is none the odometry's frame, may deviate this much from upright:
  * a unit that says more is mounted otherwise than the recording says. */
 constexpr double kStartTiltRad = 15.0 * M_PI / 180.0, kFrameTiltRad = 45.0 * M_PI / 180.0;
+
+/** A laser in the plane sees few points, so all are kept, and no more than a slice, so key nodes
+ * are denser: they lie apart by this share of what it sees, but not less than the rest. */
+constexpr double kPlanarDistanceShare = 0.1, kPlanarDistanceM = 0.5, kPlanarAngleDeg = 15.0;
+
+/** Of points from their lidars, metres; zero of none. */
+double medianRange(const Scan& scan) {
+  std::vector<float> ranges;
+  for (size_t i = 0; i < scan.size(); ++i)
+    ranges.push_back((scan.points[i] - scan.sensors[scan.sensor[i]].position.cast<float>()).norm());
+  if (ranges.empty()) return 0;
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  return *middle;
+}
+
+std::string degrees(double radians) {
+  return std::to_string(std::lround(radians * 180.0 / M_PI));
+}
 
 void append(const Scan& scan, const Pose3& target_T_scan, Scan& target) {
   const auto first_sensor = static_cast<uint8_t>(target.sensors.size());
@@ -69,10 +89,10 @@ void FrontEndOptions::visit(OptionVisitor& v) {
     "is not filtered again");
   v("key_node_distance_m", key_node_distance_m, "m",
     "distance travelled before a new key node is added; smaller values give more loop closures and "
-    "take more time",
+    "take more time; for robots in the plane at most a tenth of the median range, or 0.5 m",
     kPositive);
-  v("key_node_angle_deg", key_node_angle_deg, "deg", "rotation before a new key node is added",
-    kPositive);
+  v("key_node_angle_deg", key_node_angle_deg, "deg",
+    "rotation before a new key node is added; for robots in the plane at most 15", kPositive);
   v("merge_window_s", merge_window_s, "s",
     "maximum age of the other lidars' scans that are merged into a keyed scan", kNotNegative);
   scan.visit(v);
@@ -90,6 +110,7 @@ FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
       assembler_(makeAssembler(options)),
       voxel_filter_(options.voxel),
       standstill_(std::make_unique<StandstillCheck>(options.keyed ? 0 : kStandstillLookS)),
+      aperture_(std::make_unique<ApertureCheck>()),
       extras_(options.gravity) {}
 
 FrontEnd::~FrontEnd() = default;
@@ -150,6 +171,7 @@ std::optional<KeyNodePacket> FrontEnd::processScan(const ScanParts& parts) {
   const Pose3 odom_T_base = odometryPose(parts.stamp);
   const bool is_placed = placed(parts, odom_T_base);
   last_stamp_ = parts.stamp;
+  if (is_placed) checkAperture(parts, odom_T_base);
   if (!is_placed) return std::nullopt;
   if (last_scan_pose_) path_since_key_.add(last_scan_pose_->inverse() * odom_T_base);
   last_scan_pose_ = odom_T_base;
@@ -161,6 +183,15 @@ std::optional<KeyNodePacket> FrontEnd::processScan(const ScanParts& parts) {
   }
   passed_scans_.push_back({parts.stamp, odom_T_base});
   return std::nullopt;
+}
+
+void FrontEnd::checkAperture(const ScanParts& parts, const Pose3& odom_T_base) {
+  using mrpt::obs::CObservation2DRangeScan;
+  const auto laser =
+      std::dynamic_pointer_cast<CObservation2DRangeScan>(parts.observations.front().observation);
+  if (!laser) return;
+  const double stated = options_.scan.laser_aperture_deg * M_PI / 180.0;
+  aperture_->observe(*laser, stated > 0 ? stated : laser->aperture, odom_T_base);
 }
 
 /** Whether odometry knows where a scan was taken. */
@@ -205,14 +236,24 @@ Pose3 FrontEnd::odometryPose(double stamp) {
 bool FrontEnd::isKeyNode(const Pose3& odom_T_base) const {
   if (!last_key_ || options_.keyed || unmeasured_.sigma_m > 0) return true;
   const Pose3 motion = last_key_->pose.inverse() * odom_T_base;
-  return motion.translation().norm() >= options_.key_node_distance_m ||
-         rotationAngle(motion) * 180.0 / M_PI >= options_.key_node_angle_deg;
+  double distance_m = options_.key_node_distance_m, angle_deg = options_.key_node_angle_deg;
+  if (planar()) {
+    const double least = std::max(kPlanarDistanceM, kPlanarDistanceShare * median_range_m_);
+    distance_m = std::min(distance_m, least);
+    angle_deg = std::min(angle_deg, kPlanarAngleDeg);
+  }
+  return motion.translation().norm() >= distance_m ||
+         rotationAngle(motion) * 180.0 / M_PI >= angle_deg;
 }
 
 /** Filtered unless it was already. */
 Scan FrontEnd::keyedScan(const ScanParts& parts, const Pose3& odom_T_base) {
   Scan scan = merged(parts, odom_T_base);
-  return options_.keyed ? scan : voxel_filter_.filter(scan);
+  if (options_.keyed) return scan;
+  if (!planar()) return voxel_filter_.filter(scan);
+  median_range_m_ = medianRange(scan);
+  const bool few = scan.size() <= static_cast<size_t>(options_.voxel.target_points);
+  return few ? scan : voxel_filter_.filter(scan);
 }
 
 /** All parts in the base frame at the scan's stamp. */
@@ -303,10 +344,15 @@ std::vector<std::string> FrontEnd::warnings() const {
     result.push_back(std::to_string(counts_.contradicted) +
                      " scans were dropped: they show motion while odometry says that the robot "
                      "stands; look for an encoder or a driver that failed");
+  if (const auto seen = aperture_->contradiction())
+    result.push_back("the 2D laser's field of view is taken to be " + degrees(aperture_->used()) +
+                     " deg, but its scans turn against odometry as if it were about " +
+                     degrees(*seen) + " deg: every scan is bent; set [frontend] " +
+                     "laser_aperture_deg to what the laser has");
   if (gravity_believed_ && !*gravity_believed_)
     result.push_back("the inertial unit is not used: what it says is up lies " +
-                     std::to_string(std::lround(gravity_deviation_ * 180.0 / M_PI)) +
-                     " deg from that of " + (prior_ ? "the start pose" : "the odometry's frame") +
+                     degrees(gravity_deviation_) + " deg from that of " +
+                     (prior_ ? "the start pose" : "the odometry's frame") +
                      "; check how the recording says it is mounted (sensorPose)");
   if (counts_.unreadable_scans > 0)
     result.push_back(std::to_string(counts_.unreadable_scans) +

@@ -1,6 +1,7 @@
 #include "lamp/loop_candidates/RadiusGenerators.h"
 
 #include "lamp/loop_candidates/GlobalSearch.h"
+#include "lamp/loop_candidates/PlanarNeighbors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -122,6 +123,7 @@ void registerAllClasses_lamp_loop_candidates() {
   mrpt::rtti::registerClass(CLASS_ID(FixedRadius));
   mrpt::rtti::registerClass(CLASS_ID(AdaptiveRadius));
   mrpt::rtti::registerClass(CLASS_ID(GlobalSearch));
+  mrpt::rtti::registerClass(CLASS_ID(PlanarNeighbors));
 }
 
 }  // namespace lamp

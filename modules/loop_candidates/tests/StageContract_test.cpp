@@ -23,6 +23,7 @@ void addLaps(PoseGraph& graph, RobotId robot, uint32_t count, double x, bool wit
     const double angle = 2 * M_PI * i / kLap, radius = 12 + 0.03 * i;
     Node node;
     node.id = {robot, i};
+    node.planar = true;
     node.world_T_base = planarPose(x + radius * std::cos(angle), radius * std::sin(angle), angle);
     graph.addNode(node);
   }

@@ -6,7 +6,9 @@ namespace lamp {
 
 void PreparationOptions::visit(OptionVisitor& v) {
   v("accumulate_neighbors", accumulate_neighbors, "key nodes",
-    "neighbouring key nodes on each side whose scans are merged into a key node's", kNotNegative);
+    "neighbouring key nodes on each side whose scans are merged into a key node's; none for robots "
+    "in the plane",
+    kNotNegative);
   v("accumulate_voxel_m", accumulate_voxel_m, "m",
     "a neighbour's point is added only if no other point lies in its voxel of this size",
     kPositive);
@@ -23,7 +25,10 @@ void PreparedScanStore::add(const KeyNodePacket& packet) {
 
 PreparedScanStore::Key PreparedScanStore::key(KeyNodeId id,
                                               const LoopClosureCandidate& candidate) const {
-  auto reach = static_cast<uint32_t>(options_.accumulate_neighbors);
+  // Wheel odometry would only blur the few lines that a laser in the plane sees.
+  const auto key_node = key_nodes_.find(id);
+  const bool planar = key_node != key_nodes_.end() && key_node->second.planar;
+  auto reach = planar ? 0 : static_cast<uint32_t>(options_.accumulate_neighbors);
   if (candidate.from.robot == candidate.to.robot) {
     const auto [first, last] = std::minmax(candidate.from.index, candidate.to.index);
     reach = std::min(reach, last > first ? (last - first - 1) / 2 : 0);

@@ -43,7 +43,7 @@ std::string iniFile(const std::string& text) {
 
 TEST(SlamConfig, AnEmptyIniGivesTheDefaults) {
   const SlamConfig config = configFrom("");
-  EXPECT_EQ(config.make<CandidateGenerator>().size(), 2u);
+  EXPECT_EQ(config.make<CandidateGenerator>().size(), 3u);
   EXPECT_EQ(config.make<CandidateGenerator>()[0]->getLoggerName(), "AdaptiveRadius");
   EXPECT_EQ(config.makeOne<Refiner>()->getLoggerName(), "Gicp");
   EXPECT_EQ(config.make<InitialAligner>().size(), 2u);

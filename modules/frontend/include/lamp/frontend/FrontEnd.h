@@ -16,6 +16,7 @@
 
 namespace lamp {
 
+class ApertureCheck;
 class StandstillCheck;
 
 struct FrontEndOptions {
@@ -68,6 +69,7 @@ class FrontEnd {
   std::vector<KeyNodePacket> processCoveredScans();
   std::optional<KeyNodePacket> processScan(const ScanParts& parts);
   bool placed(const ScanParts& parts, const Pose3& odom_T_base);
+  void checkAperture(const ScanParts& parts, const Pose3& odom_T_base);
   void dropWithoutOdometry(double stamp);
   void leaveOut(double begin, double end, double sigma_m_per_s, double sigma_rad_per_s);
   bool planar() const { return planar_lidar_ && odometry_->planar(); }
@@ -89,6 +91,7 @@ class FrontEnd {
   AdaptiveVoxelFilter voxel_filter_;
 
   const std::unique_ptr<StandstillCheck> standstill_;
+  const std::unique_ptr<ApertureCheck> aperture_;
 
   std::deque<ScanParts> waiting_;
   ExtrasCollector extras_;
@@ -104,6 +107,7 @@ class FrontEnd {
   } unmeasured_;
   std::optional<Pose3> first_pose_;
   bool planar_lidar_ = true;
+  double median_range_m_ = 0;             ///< of the last keyed scan of a robot in the plane
   std::optional<bool> gravity_believed_;  ///< by the first reading
   double gravity_deviation_ = 0;          ///< of that from upright, radians
   std::optional<Pose3> world_T_odom_;     ///< by the start pose
