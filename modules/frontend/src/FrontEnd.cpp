@@ -27,7 +27,7 @@ constexpr double kFailedRadPerS = 10.0 * M_PI / 180.0;
 
 /** The start pose, or where there is none the odometry's frame, may deviate this much from upright:
  * a unit that says more is mounted otherwise than the recording says. */
-constexpr double kStartTiltRad = 15.0 * M_PI / 180.0, kFrameTiltRad = 45.0 * M_PI / 180.0;
+constexpr double kStartTiltRad = 5.0 * M_PI / 180.0, kFrameTiltRad = 45.0 * M_PI / 180.0;
 
 /** A laser in the plane sees few points, so all are kept, and no more than a slice, so key nodes
  * are denser: they lie apart by this share of what it sees, but not less than the rest. */
