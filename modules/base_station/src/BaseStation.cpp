@@ -29,7 +29,8 @@ BaseStation::BaseStation(BaseStationSetup setup, mrpt::system::CTimeLogger& time
       back_end_(std::move(setup.back_end)),
       timer_(timer),
       scans_(setup.preparation),
-      extra_edges_(std::move(setup.extra_edges)) {}
+      extra_edges_(std::move(setup.extra_edges)),
+      placements_(computation_, scans_) {}
 
 void BaseStation::receive(const KeyNodePacket& packet, const std::atomic<bool>& interrupted) {
   registerNode(packet, graph_);
@@ -60,6 +61,7 @@ std::string BaseStation::apply(const OperatorAction& action, const RobotTable& r
 }
 
 void BaseStation::finish(const std::atomic<bool>& interrupted) {
+  if (placements_.askForLastAnswers(graph_)) optimized_all_ = false;
   // Each optimisation can bring key nodes together that were too far apart before.
   do {
     if (!interrupted) computeRound(0, interrupted);
@@ -161,10 +163,9 @@ bool BaseStation::optimizationDue() const {
 void BaseStation::optimize() {
   if (operator_.frozen()) return;
   const CTimeLoggerEntry timing(timer_, "pose_graph");
+  const OptimizationResult result = solve();
   std::vector<Verdict> before;
   for (const Edge& edge : graph_.edges()) before.push_back(edge.verdict);
-
-  const OptimizationResult result = back_end_.optimize(graph_, operator_.admitted(graph_));
   report_ = result.report;
   ++optimization_count_;
   optimized_loops_ = loops_;
@@ -178,6 +179,33 @@ void BaseStation::optimize() {
     if (graph_.edges()[i].verdict != before[i])
       ledger_.addVerdictChange(i, round_, before[i], graph_.edges()[i]);
   proposeAgain();
+}
+
+OptimizationResult BaseStation::solve() {
+  const auto optimized = [&] {
+    std::vector<bool> admitted = operator_.admitted(graph_);
+    placements_.exclude(graph_, admitted);
+    return back_end_.optimize(graph_, admitted);
+  };
+  OptimizationResult result = optimized();
+  if (result.report.usable && misplaced(result)) {
+    back_end_.optimizer->forget();
+    result = optimized();
+  }
+  placements_.describe(result.report.frames);
+  return result;
+}
+
+bool BaseStation::misplaced(const OptimizationResult& result) {
+  const CTimeLoggerEntry timing(timer_, "robot_placements");
+  if (!placements_.judge(graph_, result)) return false;
+  ++round_;
+  std::vector<PlacedLoop> loops = placements_.takeLoops();
+  candidate_count_ += loops.size();
+  size_t rank = 0;
+  for (PlacedLoop& loop : loops)
+    record({loop.from, loop.to, "RobotPlacements"}, loop.guess, std::move(loop.attempt), rank++);
+  return true;
 }
 
 void BaseStation::proposeAgain() {

@@ -3,7 +3,9 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <iomanip>
 #include <map>
 #include <new>
 #include <sstream>
@@ -141,6 +143,50 @@ std::string names(const RobotTable& robots, const std::vector<RobotId>& ids) {
   return text;
 }
 
+/** Placements to name before "and so many more". */
+constexpr size_t kNamedPlacements = 4;
+
+/** One decimal, and no minus before zero. */
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << std::round(value * 10) / 10 + 0.0;
+  return text.str();
+}
+
+std::string describePlacements(const std::vector<Pose3>& placements) {
+  std::string text;
+  for (size_t k = 0; k < std::min(kNamedPlacements, placements.size()); ++k) {
+    const Vector6d pose = yawPitchRollFromPose(placements[k]);
+    text += (k == 0 ? "(" : ", (") + rounded(pose[0]) + " " + rounded(pose[1]) + " " +
+            rounded(pose[2]) + ", " + rounded(pose[3] * 180.0 / M_PI) + ")";
+  }
+  if (placements.size() > kNamedPlacements)
+    text += " and " + std::to_string(placements.size() - kNamedPlacements) + " more";
+  return text;
+}
+
+/** Why two robots stay apart. */
+std::string describeFrames(const FrameAgreement& frames, const RobotTable& robots) {
+  const std::string a = robots.name(frames.a), b = robots.name(frames.b);
+  if (frames.contradicting > 0) {
+    const auto percent = std::to_string(std::lround(100 * frames.contradicting));
+    return a + " and " + b + ": " + std::to_string(frames.agreeing) +
+           " loop closures between them agree on a placement that " + percent +
+           " % of what can be compared contradicts: one has seen it where the other saw through.";
+  }
+  if (frames.equally_good.empty())
+    return a + " and " + b + ": of " + std::to_string(frames.loops) +
+           " loop closures between them " + std::to_string(frames.agreeing) +
+           " agree, each with key nodes of its own; " + std::to_string(frames.needed) +
+           " are needed.";
+  return a + " and " + b + " see places that look alike: these placements of " + b +
+         "'s first key node, seen from " + a +
+         "'s (x y z in metres, yaw in degrees), are equally good: " +
+         describePlacements(frames.equally_good) +
+         ". They stay apart; a start pose or a place that both have seen and that is like no other "
+         "would tell.";
+}
+
 }  // namespace
 
 std::vector<std::string> writeRun(const RunFolder& folder, const RunResult& result,
@@ -203,10 +249,7 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
     text << "The loop closures say that odometry is worse than stated: its covariances were taken "
          << scale << " times larger.\n";
   for (const FrameAgreement& frames : base.lastReport().frames)
-    if (!frames.joined)
-      text << result.robots.name(frames.a) << " and " << result.robots.name(frames.b) << ": of "
-           << frames.loops << " loop closures between them " << frames.agreeing
-           << " agree, each with key nodes of its own; " << frames.needed << " are needed.\n";
+    if (!frames.joined) text << describeFrames(frames, result.robots) << "\n";
   if (!result.world_p_origin.isZero(0)) {
     text
         << "The maps are in a frame of their own near the robots: their files and summary.json say "

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "WorldFrame.h"
 #include "lamp/core/Version.h"
@@ -67,12 +68,23 @@ Json componentSummary(const RunResult& result, const Component& component, size_
   return json;
 }
 
+/** `[x y z yaw pitch roll]`, metres and degrees. */
+Json poseSummary(const Pose3& pose) {
+  Vector6d numbers = yawPitchRollFromPose(pose);
+  numbers.tail<3>() *= 180.0 / M_PI;
+  return std::vector<double>(numbers.data(), numbers.data() + numbers.size());
+}
+
 Json frameSummary(const RunResult& result, const FrameAgreement& frames) {
+  Json equally_good = Json::array();
+  for (const Pose3& placement : frames.equally_good) equally_good.push_back(poseSummary(placement));
   return {{"robots", {result.robots.name(frames.a), result.robots.name(frames.b)}},
           {"loops", frames.loops},
           {"agreeing", frames.agreeing},
           {"needed", frames.needed},
-          {"joined", frames.joined}};
+          {"joined", frames.joined},
+          {"equally_good", equally_good},
+          {"contradicting", frames.contradicting}};
 }
 
 /** By type: edges beside odometry, priors and loop closures, and how many are kept. */

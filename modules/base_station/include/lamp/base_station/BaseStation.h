@@ -12,6 +12,7 @@
 #include "lamp/base_station/ExtraEdges.h"
 #include "lamp/base_station/Ledger.h"
 #include "lamp/base_station/OperatorState.h"
+#include "lamp/base_station/RobotPlacements.h"
 #include "lamp/base_station/RobotTracks.h"
 #include "lamp/core/KeyNodePacket.h"
 #include "lamp/core/PoseGraph.h"
@@ -75,6 +76,8 @@ class BaseStation : public mrpt::system::COutputLogger {
               size_t rank);
   bool optimizationDue() const;
   void optimize();
+  OptimizationResult solve();
+  bool misplaced(const OptimizationResult& result);
   void proposeAgain();
 
   const BaseStationOptions options_;
@@ -93,6 +96,7 @@ class BaseStation : public mrpt::system::COutputLogger {
   OperatorState operator_;
   std::vector<ActionRecord> actions_;
   RobotTracks tracks_;
+  RobotPlacements placements_;
   /** Where each key node stood when candidates were last sought for it. */
   std::unordered_map<KeyNodeId, Eigen::Vector3d> proposed_at_;
 

@@ -14,6 +14,12 @@ struct FrameAgreement {
   size_t agreeing = 0;  ///< of those, how many agree, each with key nodes of its own
   size_t needed = 0;
   bool joined = false;
+  /** Where several placements of b's first key node in the frame of a's explain about equally well
+   * what both robots have seen, those, and the robots stay apart; the best first. */
+  std::vector<Pose3> equally_good = {};
+  /** Where what both have seen contradicts the placement that the loops agree on: by what share of
+   * the surfaces that can be compared. The robots stay apart then. */
+  double contradicting = 0;
 };
 
 /** Decides before the optimisation which loop closures may take part in it (paper II-D). */

@@ -52,6 +52,15 @@ class LoopClosureComputation {
    * from many threads. */
   LoopClosureAttempt compute(const PreparedScan& source, const PreparedScan& target,
                              const Guess& guess) const;
+  /** One hypothesis, refined and verified. Safe to call from many threads. */
+  LoopClosureAttempt follow(const PreparedScan& source, const PreparedScan& target,
+                            const Guess& guess, const Hypothesis& hypothesis) const {
+    return refineAndVerify(source, target, guess, hypothesis).attempt;
+  }
+  RegistrationResult refine(const PreparedScan& source, const PreparedScan& target,
+                            const Hypothesis& hypothesis) const {
+    return refiner_->refine(source, target, hypothesis);
+  }
 
  private:
   /** An attempt and how many steps it took before it was refused. */

@@ -57,6 +57,12 @@ class PreparedScanStore {
   Key source(const LoopClosureCandidate& candidate) const { return key(candidate.to, candidate); }
   Key target(const LoopClosureCandidate& candidate) const { return key(candidate.from, candidate); }
 
+  /** Of a key node that is to be registered with another robot's. */
+  Key ofStrangers(KeyNodeId id) const {
+    const auto reach = static_cast<uint32_t>(options_.accumulate_neighbors);
+    return {id, reach, reach};
+  }
+
   /** Not while other threads get(). */
   void add(const KeyNodePacket& packet);
   /** The prepared scan, as of the key nodes added so far. Safe from many threads.
