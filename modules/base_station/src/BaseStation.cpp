@@ -188,7 +188,7 @@ OptimizationResult BaseStation::solve() {
     return back_end_.optimize(graph_, admitted);
   };
   OptimizationResult result = optimized();
-  if (result.report.usable && misplaced(result)) {
+  while (result.report.usable && misplaced(result)) {
     back_end_.optimizer->forget();
     result = optimized();
   }

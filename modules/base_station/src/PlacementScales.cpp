@@ -15,7 +15,7 @@ namespace {
 
 /** Bounds of the work: pairs compared for each placement, key nodes of b that alternatives are
  * sought for, and key nodes of a that they are sought at. */
-constexpr size_t kMaxPairs = 24, kMaxSeeds = 3, kMaxPlaces = 40;
+constexpr size_t kMaxPairs = 24, kMaxSeeds = 2, kMaxPlaces = 30;
 /** How far a key node may settle from where a placement puts it, and how far apart two placements
  * are then different. */
 constexpr double kDrift_m = 1.0, kDrift_deg = 10.0;

@@ -45,19 +45,28 @@ void RobotPlacements::exclude(const PoseGraph& graph, std::vector<bool>& admitte
 }
 
 bool RobotPlacements::judge(const PoseGraph& graph, const OptimizationResult& result) {
+  std::vector<FrameAgreement> frames = result.report.frames;
+  if (frames.empty()) return false;
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const auto& a, const auto& b) { return a.agreeing > b.agreeing; });
   PoseGraph joined;
   bool refused = false;
-  for (const FrameAgreement& frames : result.report.frames) {
-    if (frames.agreeing < frames.needed || !frames.joined) continue;
-    const Robots robots = std::minmax(frames.a, frames.b);
+  DisjointSets sure(graph.robots().back().value + size_t{1});
+  for (const FrameAgreement& agreement : frames) {
+    if (agreement.agreeing < agreement.needed || !agreement.joined ||
+        sure.joined(agreement.a.value, agreement.b.value))
+      continue;
+    const Robots robots = std::minmax(agreement.a, agreement.b);
     const auto found = answers_.find(robots);
-    if (found != answers_.end() && holds(found->second, graph)) continue;
-    if (joined.nodes().empty()) {
-      joined = graph;
-      applyResult(result, joined);
+    if (found == answers_.end() || !holds(found->second, graph)) {
+      if (joined.nodes().empty()) {
+        joined = graph;
+        applyResult(result, joined);
+      }
+      answers_[robots] = answer(joined, agreement);
+      refused = refused || answers_[robots].apart || !answers_[robots].as_joined;
     }
-    const Answer& found_now = answers_[robots] = answer(joined, frames);
-    refused = refused || found_now.apart || !found_now.as_joined;
+    if (!answers_[robots].apart) sure.join(agreement.a.value, agreement.b.value);
   }
   return refused;
 }
@@ -88,8 +97,11 @@ bool RobotPlacements::askForLastAnswers(const PoseGraph& graph) {
 }
 
 bool RobotPlacements::holds(const Answer& answer, const PoseGraph& graph) const {
+  // Robots that are joined seldom turn out to be apart; those that are apart wait for the answer.
+  constexpr double kLongerIfJoined = 1.3;
+  const double growth = answer.apart ? growth_ : growth_ * kLongerIfJoined;
   return static_cast<double>(keyNodes(graph, answer.agreement.a, answer.agreement.b)) <=
-         growth_ * static_cast<double>(answer.key_nodes);
+         growth * static_cast<double>(answer.key_nodes);
 }
 
 RobotPlacements::Answer RobotPlacements::answer(const PoseGraph& joined,
