@@ -1,3 +1,6 @@
+#include <memory>
+#include <sstream>
+
 #include "FuzzTarget.h"
 #include "lamp/core/CloudFile.h"
 
@@ -5,10 +8,11 @@ using namespace lamp;
 
 /** A cloud has points, and all are finite. */
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const std::string path = fuzz::fileOf(data, size, ".ply");
-  fuzz::mayRefuse(path, [&] {
-    const CloudPoints cloud = readCloudPoints(path);
+  fuzz::mayRefuse("fuzz.ply", [&] {
+    auto file = std::make_unique<std::istringstream>(fuzz::textOf(data, size));
+    const CloudPoints cloud = readCloudPoints(std::move(file), CloudKind::kPly, "fuzz.ply");
     fuzz::require(!cloud.points.empty(), "not empty");
+    fuzz::require(cloud.offset.allFinite(), "a finite offset");
     for (const Eigen::Vector3f& point : cloud.points)
       fuzz::require(point.allFinite(), "finite points");
   });
