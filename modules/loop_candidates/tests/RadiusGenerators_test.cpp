@@ -64,7 +64,7 @@ TEST(FixedRadius, OfManyRobotsTheNearestCount) {
   generator->options.max_other_robots = 3;
   const auto candidates = generator->propose(graph, {RobotId{0}, 29});
   std::multiset<uint16_t> robots;
-  for (const auto& candidate : candidates) robots.insert(candidate.from.robot.value);
+  for (const auto& candidate : candidates) robots.insert(candidate.to.robot.value);
   // 7 * robot is 1, 2 and 3 modulo 20 for these.
   EXPECT_EQ(robots, (std::multiset<uint16_t>{3, 3, 6, 6, 9, 9}));
 }
