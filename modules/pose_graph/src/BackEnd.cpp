@@ -1,12 +1,17 @@
 #include "lamp/pose_graph/BackEnd.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "rejection/Readmission.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(OutlierRejection, Stage, lamp)
 
 namespace lamp {
 
 namespace {
+
+/** Each makes the solution surer, and so lets more in; hardly any after the first few. */
+constexpr int kMaxReadmissions = 5;
 
 PoseGraph withLooserOdometry(PoseGraph graph, double scale) {
   for (Edge& edge : graph.edges())
@@ -16,20 +21,33 @@ PoseGraph withLooserOdometry(PoseGraph graph, double scale) {
 
 }  // namespace
 
+/** Loops that wait come in as the solution without them bears them out. */
+OptimizationResult BackEnd::optimize(const PoseGraph& graph, Admission admission) const {
+  OptimizationResult result = optimizer->optimize(graph, admission.admitted);
+  for (int round = 0; round < kMaxReadmissions && result.report.usable; ++round) {
+    const std::vector<EdgeIndex> found = borneOut(graph, result, admission);
+    if (found.empty()) break;
+    for (const EdgeIndex edge : found) {
+      admission.admitted[edge] = true;
+      admission.waiting[edge] = false;
+    }
+    const OptimizationReport before = result.report;
+    result = optimizer->optimize(graph, admission.admitted);
+    result.report.iterations += before.iterations;
+    result.report.rounds += before.rounds;
+    result.report.initial_cost = before.initial_cost;
+  }
+  return result;
+}
+
 OptimizationResult BackEnd::optimize(const PoseGraph& graph, std::vector<bool> admitted) const {
-  double scale = 1.0;
-  for (const auto& rejection : rejections) {
-    rejection->reject(graph, admitted);
-    scale = std::max(scale, rejection->odometryScale());
-  }
-  OptimizationResult result = scale > 1.0
-                                  ? optimizer->optimize(withLooserOdometry(graph, scale), admitted)
-                                  : optimizer->optimize(graph, admitted);
+  Admission admission(std::move(admitted));
+  for (const auto& rejection : rejections) admission = rejection->reject(graph, admission);
+  const double scale = admission.odometry_scale;
+  OptimizationResult result = scale > 1.0 ? optimize(withLooserOdometry(graph, scale), admission)
+                                          : optimize(graph, admission);
   result.report.odometry_scale = scale;
-  for (const auto& rejection : rejections) {
-    const std::vector<FrameAgreement> agreements = rejection->agreements();
-    result.report.frames.insert(result.report.frames.end(), agreements.begin(), agreements.end());
-  }
+  result.report.frames = admission.frames;
   return result;
 }
 

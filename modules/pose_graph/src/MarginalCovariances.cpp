@@ -7,6 +7,7 @@
 #include "solver/BlockCholesky.h"
 #include "solver/GaugeAnchors.h"
 #include "solver/NormalEquations.h"
+#include "solver/SelectedInverse.h"
 #include "solver/Unknowns.h"
 
 namespace lamp {
@@ -46,6 +47,7 @@ class MarginalCovariances::Impl {
   virtual std::vector<std::optional<Matrix6d>> relative(KeyNodeId from,
                                                         const std::vector<KeyNodeId>& to) const = 0;
   virtual Matrix6d absolute(KeyNodeId id) const = 0;
+  virtual std::vector<Matrix6d> ofNodes() const = 0;
   virtual Eigen::Matrix3d ofLandmark(LandmarkIndex landmark) const = 0;
 };
 
@@ -94,6 +96,22 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
   }
 
   Matrix6d absolute(KeyNodeId id) const override { return absolute(place_.at(id)); }
+
+  std::vector<Matrix6d> ofNodes() const override {
+    const BlockCholesky<kDof>& factor = cholesky();
+    const SymbolicCholesky& symbolic = factor.symbolic();
+    const std::vector<Block> inverse = selectedInverse(factor);
+    std::vector<Matrix6d> result;
+    for (size_t i = 0; i < place_.size(); ++i) {
+      if (row_[i] < 0) {
+        result.push_back(inSpace(Block(Block::Zero())));
+        continue;
+      }
+      const int place = symbolic.place(row_[i]);
+      result.push_back(inSpace(inverse[symbolic.entry(place, place)]));
+    }
+    return result;
+  }
 
   Eigen::Matrix3d ofLandmark(LandmarkIndex landmark) const override {
     if (row_.at(place_.size() + landmark) < 0) return Eigen::Matrix3d::Zero();
@@ -170,6 +188,10 @@ std::vector<std::optional<Matrix6d>> MarginalCovariances::relativeCovariances(
 
 Matrix6d MarginalCovariances::covariance(KeyNodeId id) const {
   return impl_->absolute(id);
+}
+
+std::vector<Matrix6d> MarginalCovariances::covariances() const {
+  return impl_->ofNodes();
 }
 
 Eigen::Matrix3d MarginalCovariances::landmarkCovariance(LandmarkIndex landmark) const {

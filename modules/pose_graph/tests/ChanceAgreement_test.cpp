@@ -39,9 +39,11 @@ struct Passed {
 };
 
 Passed passed(const World& world) {
-  std::vector<bool> admitted(world.graph.edges().size(), true);
-  OdometryGate().reject(world.graph, admitted);
-  ChanceAgreement().reject(world.graph, admitted);
+  const Admission gated = OdometryGate().reject(world.graph, everything(world.graph));
+  const Admission judged = ChanceAgreement().reject(world.graph, gated);
+  std::vector<bool> admitted = judged.admitted;
+  for (size_t e = 0; e < admitted.size(); ++e)
+    if (judged.likely[e]) admitted[e] = true;
   Passed result;
   double right = 0, wrong = 0;
   for (size_t e = 0; e < admitted.size(); ++e) {

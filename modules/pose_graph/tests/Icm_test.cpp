@@ -23,9 +23,7 @@ Score score(const World& world, const std::vector<bool>& admitted) {
 }
 
 std::vector<bool> admittedBy(Icm& icm, const PoseGraph& graph) {
-  std::vector<bool> admitted(graph.edges().size(), true);
-  icm.reject(graph, admitted);
-  return admitted;
+  return icm.reject(graph, everything(graph)).admitted;
 }
 
 class IcmWorlds : public testing::TestWithParam<bool> {};
@@ -89,12 +87,11 @@ TEST(Icm, FixedThresholdsDependOnTheirSize) {
 
 TEST(Icm, LoopsThatAreOutAlreadyStayOut) {
   const World world = makeWorld({});
-  std::vector<bool> admitted(world.graph.edges().size(), true);
+  Admission before = everything(world.graph);
   EdgeIndex loop = 0;
   while (!world.graph.edges()[loop].mayBeRejected()) ++loop;
-  admitted[loop] = false;
-  Icm().reject(world.graph, admitted);
-  EXPECT_FALSE(admitted[loop]);
+  before.admitted[loop] = false;
+  EXPECT_FALSE(Icm().reject(world.graph, before).admitted[loop]);
 }
 
 }  // namespace

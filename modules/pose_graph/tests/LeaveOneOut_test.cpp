@@ -51,6 +51,30 @@ TEST(LeaveOneOut, IsWhatTheCostFallsByWithoutTheEdge) {
   }
 }
 
+/** Of edges that take no part: by so much a solve with the edge is worse. */
+TEST(LeaveOneOut, IsWhatTheCostRisesByWithAnEdgeThatWasOut) {
+  for (const bool planar : {false, true}) {
+    WorldOptions options;
+    options.planar = planar;
+    options.loops = 12;
+    const World world = makeWorld(options);
+    size_t compared = 0;
+    for (EdgeIndex e = 0; e < world.graph.edges().size(); ++e) {
+      if (!world.graph.edges()[e].isLoopClosure()) continue;
+      std::vector<bool> others(world.graph.edges().size(), true);
+      others[e] = false;
+      const OptimizationResult without = Lm().optimize(world.graph, others);
+      const double rise =
+          2 * (Lm().optimize(world.graph).report.final_cost - without.report.final_cost);
+      const auto problem = makePoseProblem("Lm", world.graph, without.world_T_base);
+      problem->setWeight(e, 0.0);
+      EXPECT_NEAR(problem->leaveOneOut2({e})[0], rise, 0.03 * rise + 0.01) << e;
+      ++compared;
+    }
+    EXPECT_EQ(compared, 12u);
+  }
+}
+
 /** The only loop of a graph is contradicted by nothing. */
 TEST(LeaveOneOut, AnEdgeThatNothingChecksHasNoDistance) {
   WorldOptions options;

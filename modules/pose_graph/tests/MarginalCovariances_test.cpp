@@ -235,5 +235,21 @@ TEST(MarginalCovariancesPlanar, PlaneIsExactAndTheRestSmall) {
   EXPECT_TRUE(isCovariance(covariance));
 }
 
+TEST(MarginalCovariances, AllAtOnceAreThoseOfEachNode) {
+  for (const bool planar : {false, true}) {
+    WorldOptions options;
+    options.planar = planar;
+    options.priors = false;
+    const World world = makeWorld(options);
+    const MarginalCovariances marginals(world.graph);
+    const std::vector<Matrix6d> all = marginals.covariances();
+    ASSERT_EQ(all.size(), world.graph.nodes().size());
+    for (size_t i = 0; i < all.size(); i += 7) {
+      const Matrix6d one = marginals.covariance(world.graph.nodes()[i].id);
+      EXPECT_LT((all[i] - one).norm(), 1e-6 * (1e-6 + one.norm())) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lamp

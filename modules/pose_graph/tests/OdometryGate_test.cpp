@@ -12,8 +12,8 @@ struct Passed {
 };
 
 Passed passed(const World& world, OdometryGateOptions options = {}) {
-  std::vector<bool> admitted(world.graph.edges().size(), true);
-  OdometryGate(options).reject(world.graph, admitted);
+  const std::vector<bool> admitted =
+      OdometryGate(options).reject(world.graph, everything(world.graph)).admitted;
   Passed result;
   for (size_t e = 0; e < admitted.size(); ++e) {
     if (!world.graph.edges()[e].mayBeRejected()) {
@@ -55,10 +55,7 @@ TEST_P(Gate, OdometryThatIsWorseThanItSaysLosesNoLoop) {
 
 TEST_P(Gate, TellsTheScaleOnlyIfManyLoopsAskForIt) {
   const auto scaleOf = [](const World& world) {
-    std::vector<bool> admitted(world.graph.edges().size(), true);
-    OdometryGate gate;
-    gate.reject(world.graph, admitted);
-    return gate.odometryScale();
+    return OdometryGate().reject(world.graph, everything(world.graph)).odometry_scale;
   };
   World world = makeWorld(options());
   EXPECT_EQ(scaleOf(world), 1.0);
@@ -76,8 +73,8 @@ TEST_P(Gate, UnrelatedRobotsPass) {
   WorldOptions apart = options();
   apart.priors = false;
   const World world = makeWorld(apart);
-  std::vector<bool> admitted(world.graph.edges().size(), true);
-  OdometryGate().reject(world.graph, admitted);
+  const std::vector<bool> admitted =
+      OdometryGate().reject(world.graph, everything(world.graph)).admitted;
   for (size_t e = 0; e < admitted.size(); ++e)
     EXPECT_TRUE(admitted[e] || !world.graph.edges()[e].betweenRobots());
 }
@@ -97,18 +94,15 @@ TEST(OdometryGate, DirectionsThatALoopDoesNotKnowAreNotJudged) {
     }
     World with = world;
     with.graph.addEdge(loop);
-    std::vector<bool> admitted(with.graph.edges().size(), true);
     OdometryGateOptions strict;
     strict.max_scale = 1;
-    OdometryGate(strict).reject(with.graph, admitted);
-    EXPECT_EQ(admitted.back(), blind);
+    const Admission gated = OdometryGate(strict).reject(with.graph, everything(with.graph));
+    EXPECT_EQ(gated.admitted.back(), blind);
   }
 }
 
 TEST(OdometryGate, NoLoopsNoNodes) {
-  std::vector<bool> none;
-  OdometryGate().reject(PoseGraph(), none);
-  EXPECT_TRUE(none.empty());
+  EXPECT_TRUE(OdometryGate().reject(PoseGraph(), Admission()).admitted.empty());
 }
 
 }  // namespace

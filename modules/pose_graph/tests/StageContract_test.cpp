@@ -55,9 +55,7 @@ class AnyOutlierRejection : public testing::TestWithParam<std::string> {
     return makeDefault<OutlierRejection>(GetParam());
   }
   std::vector<bool> kept(const PoseGraph& graph) const {
-    std::vector<bool> admitted = all(graph, true);
-    rejection->reject(graph, admitted);
-    return admitted;
+    return rejection->reject(graph, everything(graph)).admitted;
   }
   const std::shared_ptr<OutlierRejection> rejection = make();
 };
@@ -85,32 +83,34 @@ TEST_P(AnyOutlierRejection, DecidesOnlyOverWhatMayBeRejected) {
 
 TEST_P(AnyOutlierRejection, AdmitsNothingThatIsOutAlready) {
   const World w = world(false, 20);
-  std::vector<bool> admitted = all(w.graph, true);
-  for (EdgeIndex e = 0; e < admitted.size(); e += 2)
-    if (w.graph.edges()[e].mayBeRejected()) admitted[e] = false;
-  const std::vector<bool> before = admitted;
-  rejection->reject(w.graph, admitted);
-  for (EdgeIndex e = 0; e < admitted.size(); ++e) EXPECT_TRUE(before[e] || !admitted[e]) << e;
+  Admission before = everything(w.graph);
+  for (EdgeIndex e = 0; e < before.admitted.size(); e += 2)
+    if (w.graph.edges()[e].mayBeRejected()) before.admitted[e] = false;
+  const Admission after = rejection->reject(w.graph, before);
+  for (EdgeIndex e = 0; e < before.admitted.size(); ++e) {
+    EXPECT_TRUE(before.admitted[e] || !after.admitted[e]) << e;
+    EXPECT_TRUE(before.admitted[e] || !after.waiting[e]) << e;
+    EXPECT_FALSE(after.admitted[e] && after.waiting[e]) << e;
+  }
 }
 
 TEST_P(AnyOutlierRejection, SaysTheSameTwiceAndKeepsNothingOfOtherGraphs) {
   const World w = world(false, 60), other = world(false, 60, 7);
-  const std::vector<bool> once = kept(w.graph);
-  const double scale = rejection->odometryScale();
-  EXPECT_EQ(kept(w.graph), once);
+  const Admission once = rejection->reject(w.graph, everything(w.graph));
+  EXPECT_EQ(kept(w.graph), once.admitted);
   kept(other.graph);
-  EXPECT_EQ(kept(w.graph), once);
-  EXPECT_EQ(rejection->odometryScale(), scale);
-  std::vector<bool> fresh = all(w.graph, true);
-  make()->reject(w.graph, fresh);
-  EXPECT_EQ(fresh, once);
+  const Admission again = rejection->reject(w.graph, everything(w.graph));
+  EXPECT_EQ(again.admitted, once.admitted);
+  EXPECT_EQ(again.waiting, once.waiting);
+  EXPECT_EQ(again.odometry_scale, once.odometry_scale);
+  EXPECT_EQ(make()->reject(w.graph, everything(w.graph)).admitted, once.admitted);
 }
 
 TEST_P(AnyOutlierRejection, TakesGraphsWithHardlyAnything) {
   for (const PoseGraph& graph : smallGraphs()) {
-    EXPECT_EQ(kept(graph), all(graph, true));
-    EXPECT_GE(rejection->odometryScale(), 1.0);
-    EXPECT_LE(rejection->odometryScale(), 1.0) << "nothing contradicts odometry";
+    const Admission admission = rejection->reject(graph, everything(graph));
+    EXPECT_EQ(admission.admitted, all(graph, true));
+    EXPECT_EQ(admission.odometry_scale, 1.0) << "nothing contradicts odometry";
   }
 }
 

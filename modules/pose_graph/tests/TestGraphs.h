@@ -10,6 +10,7 @@
 #include "lamp/core/GraphFiles.h"
 #include "lamp/core/PoseGraph.h"
 #include "lamp/pose_graph/InitialGuess.h"
+#include "lamp/pose_graph/OutlierRejection.h"
 
 namespace lamp {
 
@@ -170,6 +171,11 @@ inline World makeWorld(const WorldOptions& options) {
   for (size_t i = 0; i < guess.size(); ++i)
     world.graph.node(world.graph.nodes()[i].id).world_T_base = guess[i];
   return world;
+}
+
+/** All edges may take part. */
+inline Admission everything(const PoseGraph& graph) {
+  return Admission(std::vector<bool>(graph.edges().size(), true));
 }
 
 /** Folder of the recordings, or empty if it is not there. */

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lamp/core/ChiSquare.h"
 #include "rejection/LoopCycles.h"
 #include "rejection/PoseVolume.h"
 #include "robust/LoopNeighbourhoods.h"
@@ -14,21 +13,24 @@ namespace lamp {
 
 namespace {
 
-/** Share of true loops that lie in their ellipsoids. */
-constexpr double kInside = 0.99;
+/** Of all false loops together, so many may be admitted by chance. */
+constexpr double kExpected = 0.5;
 /** More partners tell nothing new. */
 constexpr size_t kMaxPartners = 30;
+
+struct DoubtfulLoop {
+  DirectedLoop loop;
+  double by_odometry, allowed;  ///< chances
+};
 
 /** The chance that what is seen of a loop is seen of a false one. */
 class Chance {
  public:
   Chance(const PoseGraph& graph, const OdometryChains& chains)
-      : chains_(chains),
-        volume_(graph, chains),
-        threshold_(chiSquareQuantile(kInside, graph.planar() ? 3 : 6)) {}
+      : chains_(chains), volume_(graph, chains) {}
 
   double ofOdometry(const DirectedLoop& loop, const RelativePose& odometry) const {
-    return volume_.chance(odometry.covariance + loop.measured.covariance, threshold_);
+    return volume_.chance(odometry.covariance + loop.measured.covariance);
   }
 
   /** The least k · min(1, λ)^s of the k nearest partners: far ones, of which odometry knows little,
@@ -39,8 +41,8 @@ class Chance {
     int agreeing = 0;
     for (size_t k = 0; k < partners.size() && least > enough; ++k) {
       const Closure closure = cycle(loop, partners[k], chains_);
-      expected += volume_.chance(closure.covariance, threshold_);
-      agreeing += closure.distance2() <= threshold_;
+      expected += volume_.chance(closure.covariance);
+      agreeing += closure.distance2() <= volume_.usualThreshold();
       least =
           std::min(least, static_cast<double>(k + 1) * std::pow(std::min(1.0, expected), agreeing));
     }
@@ -50,7 +52,6 @@ class Chance {
  private:
   const OdometryChains& chains_;
   const PoseVolume volume_;
-  const double threshold_;
 };
 
 }  // namespace
@@ -64,26 +65,35 @@ void ChanceAgreementOptions::visit(OptionVisitor& v) {
     "two loop closures are compared if both their ends are this close in sequence", {1});
 }
 
-void ChanceAgreement::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
+Admission ChanceAgreement::reject(const PoseGraph& graph, Admission before) {
+  const double of_all = std::min(1.0, kExpected / before.false_loops);
+  before.max_chance = of_all > 0 ? of_all : options_.max_chance;
   const OdometryChains chains(graph);
   const Chance chance(graph, chains);
   LoopNeighbourhoods neighbourhoods(chains, options_.partner_nodes);
-  std::vector<std::pair<DirectedLoop, double>> doubtful;
+  std::vector<DoubtfulLoop> doubtful;
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
     const Edge& edge = graph.edges()[e];
-    if (!edge.isLoopClosure() || !admitted[e]) continue;
+    if (!edge.isLoopClosure() || !before.admitted[e]) continue;
     const DirectedLoop loop = directed(e, edge, graph.planar());
     neighbourhoods.add(loop);
+    if (edge.pinned) continue;
     const auto odometry = chains.between(loop.from, loop.to);
-    if (!odometry || edge.pinned) continue;
-    const double by_odometry = chance.ofOdometry(loop, *odometry);
-    if (by_odometry > options_.max_chance) doubtful.emplace_back(loop, by_odometry);
+    const bool strangers = !odometry && edge.betweenRobots();
+    const double by_odometry = odometry ? chance.ofOdometry(loop, *odometry) : 1.0;
+    const double allowed =
+        strangers ? std::min(options_.max_chance, before.max_chance) : before.max_chance;
+    if (by_odometry > allowed) doubtful.push_back({loop, by_odometry, allowed});
   }
-  for (const auto& [loop, by_odometry] : doubtful) {
-    const double enough = options_.max_chance / by_odometry;
+  for (const auto& [loop, by_odometry, allowed] : doubtful) {
     const auto partners = neighbourhoods.nearest(loop, kMaxPartners);
-    if (chance.ofPartners(loop, partners, enough) > enough) admitted[loop.edge] = false;
+    const double together = by_odometry * chance.ofPartners(loop, partners, allowed / by_odometry);
+    if (together <= allowed) continue;
+    before.admitted[loop.edge] = false;
+    before.waiting[loop.edge] = true;
+    before.likely[loop.edge] = together <= options_.max_chance;
   }
+  return before;
 }
 
 }  // namespace lamp

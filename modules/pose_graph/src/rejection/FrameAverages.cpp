@@ -25,6 +25,7 @@ constexpr double kSurePrior = 1e-3;
 
 /** What one loop closure says of a frame. */
 struct Measurement {
+  EdgeIndex loop;
   KeyNodeId a, b;  ///< its key nodes
   Pose3 a_T_b;
   Matrix6d information;
@@ -37,7 +38,7 @@ struct Measurement {
   }
 };
 
-Measurement measurement(const OdometryChains& chains, const Edge& edge, bool planar) {
+Measurement measurement(const OdometryChains& chains, EdgeIndex e, const Edge& edge, bool planar) {
   const Matrix6d of_loop = boundedCovariance(edge.information, planar);
   const RelativePose from = chains.fromFirst(edge.from), to = chains.fromFirst(edge.to);
   const Pose3 to_T_first = to.a_T_b.inverse();
@@ -47,11 +48,19 @@ Measurement measurement(const OdometryChains& chains, const Edge& edge, bool pla
   const Matrix6d covariance =
       composeCovariance(at_to, to_T_first, Ad * to.covariance * Ad.transpose());
   const int rank = std::max(1, informationRank(edge.information, planar));
-  Measurement result{edge.from, edge.to, from.a_T_b * edge.from_T_to * to_T_first,
-                     covariance.inverse(), chiSquareQuantile(kInlierProbability, rank)};
+  Measurement result{e,
+                     edge.from,
+                     edge.to,
+                     from.a_T_b * edge.from_T_to * to_T_first,
+                     covariance.inverse(),
+                     chiSquareQuantile(kInlierProbability, rank)};
   if (chains.chain(edge.from) < chains.chain(edge.to)) return result;
   const Matrix6d back = adjoint(result.a_T_b.inverse());
-  return {edge.to, edge.from, result.a_T_b.inverse(), back.transpose() * result.information * back,
+  return {e,
+          edge.to,
+          edge.from,
+          result.a_T_b.inverse(),
+          back.transpose() * result.information * back,
           result.threshold};
 }
 
@@ -106,6 +115,14 @@ size_t countAgreeing(const std::vector<Measurement>& measurements, const Pose3& 
   return std::min(of_a.size(), of_b.size());
 }
 
+std::vector<EdgeIndex> agreeingLoops(const std::vector<Measurement>& measurements,
+                                     const Pose3& pose) {
+  std::vector<EdgeIndex> loops;
+  for (const Measurement& m : measurements)
+    if (m.distance2(pose) <= 1.0) loops.push_back(m.loop);
+  return loops;
+}
+
 FrameAverage average(int a, int b, const std::vector<Measurement>& measurements) {
   TruncatedLeastSquares loss;
   Pose3 pose = start(measurements);
@@ -125,8 +142,12 @@ FrameAverage average(int a, int b, const std::vector<Measurement>& measurements)
     if (loss.exactFor(distances2)) break;
     loss.sharpen(kMuStep);
   }
-  return {
-      a, b, {pose, information.inverse()}, measurements.size(), countAgreeing(measurements, pose)};
+  return {a,
+          b,
+          {pose, information.inverse()},
+          measurements.size(),
+          agreeingLoops(measurements, pose),
+          countAgreeing(measurements, pose)};
 }
 
 bool surelyRelated(const OdometryChains& chains, int a, int b) {
@@ -147,7 +168,7 @@ std::vector<FrameAverage> frameAverages(const PoseGraph& graph, const OdometryCh
     if (edge.type != EdgeType::kLoopClosure || !admitted[e]) continue;
     const int from = chains.chain(edge.from), to = chains.chain(edge.to);
     if (from != to && !surelyRelated(chains, from, to))
-      by_pair[std::minmax(from, to)].push_back(measurement(chains, edge, planar));
+      by_pair[std::minmax(from, to)].push_back(measurement(chains, e, edge, planar));
   }
   std::vector<FrameAverage> averages;
   for (const auto& [pair, measurements] : by_pair)

@@ -8,10 +8,11 @@ namespace lamp {
 
 /** Where loop closures between two chains of odometry put one chain in the other's frame. */
 struct FrameAverage {
-  int a, b;             ///< chains, a < b
-  RelativePose a_T_b;   ///< between their first key nodes
-  size_t loops = 0;     ///< between the two
-  size_t agreeing = 0;  ///< of those, how many agree with the average without sharing a key node
+  int a, b;                               ///< chains, a < b
+  RelativePose a_T_b;                     ///< between their first key nodes
+  size_t loops = 0;                       ///< between the two
+  std::vector<EdgeIndex> agreeing_loops;  ///< those that agree with the average
+  size_t agreeing = 0;                    ///< of those, how many do not share a key node
 };
 
 /** One average for each pair of chains that admitted loops join, by (a, b).

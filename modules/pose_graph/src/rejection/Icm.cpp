@@ -107,7 +107,8 @@ void IcmOptions::visit(OptionVisitor& v) {
     {1});
 }
 
-void Icm::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
+Admission Icm::reject(const PoseGraph& graph, Admission before) {
+  std::vector<bool>& admitted = before.admitted;
   const OdometryChains chains(graph);
   const Consistency consistency(chains, options_, graph.planar());
   std::map<std::pair<int, int>, std::vector<DirectedLoop>> loops;
@@ -127,6 +128,7 @@ void Icm::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
     group->add(of_group, consistency);
     group->rejectOthers(admitted);
   }
+  return before;
 }
 
 }  // namespace lamp

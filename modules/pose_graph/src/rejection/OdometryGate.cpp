@@ -16,6 +16,10 @@ namespace {
 
 constexpr double kNearly = 0.97;
 constexpr size_t kSampled = 400;
+/** Where odometry knows next to nothing, what it contradicts does not tell how much it misses. */
+constexpr double kMostChance = 0.9;
+/** False loops expected where odometry contradicts none (the mean after Jeffreys' prior). */
+constexpr double kUnseen = 0.5;
 /** Smaller scales may be chance, and not to know of them does no harm. */
 constexpr double kLeastMistake = 16.0;
 /** A few false loops that agree must not loosen odometry: of all loops, so many have to ask for it.
@@ -29,9 +33,8 @@ struct GatedLoop {
   Matrix6d odometry_covariance, loop_covariance;  ///< both in the tangent space of the error
   int rank;
 
-  double distance2(double scale) const {
-    return mahalanobis2(error, scale * odometry_covariance + loop_covariance);
-  }
+  Matrix6d covariance(double scale) const { return scale * odometry_covariance + loop_covariance; }
+  double distance2(double scale) const { return mahalanobis2(error, covariance(scale)); }
 };
 
 std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const OdometryChains& chains,
@@ -73,8 +76,7 @@ Near countNear(const std::vector<GatedLoop>& loops, double scale, double inlier_
   for (const GatedLoop& loop : loops) {
     const double threshold = chiSquareQuantile(inlier_probability, loop.rank);
     near.loops += loop.distance2(scale) <= threshold;
-    near.by_chance +=
-        volume.chance(scale * loop.odometry_covariance + loop.loop_covariance, threshold);
+    near.by_chance += volume.chance(loop.covariance(scale), threshold);
   }
   return near;
 }
@@ -114,18 +116,27 @@ void OdometryGateOptions::visit(OptionVisitor& v) {
     {1.0});
 }
 
-void OdometryGate::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
+Admission OdometryGate::reject(const PoseGraph& graph, Admission before) {
   const OdometryChains chains(graph);
-  const std::vector<GatedLoop> loops = gatedLoops(graph, chains, admitted);
+  const std::vector<GatedLoop> loops = gatedLoops(graph, chains, before.admitted);
   const std::vector<GatedLoop> sampled = sample(loops);
-  const Scale scale = fittingScale(sampled, options_, PoseVolume(graph, chains));
+  const PoseVolume volume(graph, chains);
+  const Scale scale = fittingScale(sampled, options_, volume);
   const bool sure =
       scale.witnesses >=
       std::max(kFewestWitnesses, kLeastWitnesses * static_cast<double>(sampled.size()));
-  scale_ = sure && scale.value >= kLeastMistake ? scale.value : 1.0;
-  for (const GatedLoop& loop : loops)
-    if (loop.distance2(scale.value) > chiSquareQuantile(options_.inlier_probability, loop.rank))
-      admitted[loop.edge] = false;
+  if (sure && scale.value >= kLeastMistake)
+    before.odometry_scale = std::max(before.odometry_scale, scale.value);
+  double wrong = 0;
+  for (const GatedLoop& loop : loops) {
+    const double threshold = chiSquareQuantile(options_.inlier_probability, loop.rank);
+    if (loop.distance2(scale.value) <= threshold) continue;
+    before.admitted[loop.edge] = false;
+    wrong +=
+        1.0 / (1.0 - std::min(kMostChance, volume.chance(loop.covariance(scale.value), threshold)));
+  }
+  if (!loops.empty()) before.false_loops = wrong + kUnseen;
+  return before;
 }
 
 }  // namespace lamp

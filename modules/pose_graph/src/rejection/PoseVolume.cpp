@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lamp/core/ChiSquare.h"
 #include "solver/Information.h"
 
 namespace lamp {
@@ -15,6 +16,9 @@ namespace {
 constexpr double kBall3 = 4.0 / 3.0 * M_PI, kBall6 = M_PI * M_PI * M_PI / 6.0;
 /** Volume of all rotations, in rotation vectors near the identity. */
 constexpr double kAllRotations = 8.0 * M_PI * M_PI;
+
+/** Share of true loops that lie in their ellipsoids. */
+constexpr double kUsual = 0.99;
 
 /** An ellipsoid that leaves the box is cut softly: at so many times the box's own. */
 constexpr double kCut = 3.0;
@@ -35,10 +39,21 @@ double share(const Matrix& C, const Matrix& D) {
 }  // namespace
 
 PoseVolume::PoseVolume(const PoseGraph& graph, const OdometryChains& chains)
-    : planar_(graph.planar()) {
+    : planar_(graph.planar()), usual_(chiSquareQuantile(kUsual, planar_ ? 3 : 6)) {
   Eigen::AlignedBox3d box;
   for (const Node& node : graph.nodes()) box.extend(chains.poseFromFirst(node.id).translation());
-  for (int axis = 0; axis < 3; ++axis) sides_[axis] = 2.0 * std::max(1.0, box.sizes()[axis]);
+  setExtent(box.sizes());
+}
+
+PoseVolume::PoseVolume(const PoseGraph& graph)
+    : planar_(graph.planar()), usual_(chiSquareQuantile(kUsual, planar_ ? 3 : 6)) {
+  Eigen::AlignedBox3d box;
+  for (const Node& node : graph.nodes()) box.extend(node.world_T_base.translation());
+  setExtent(box.sizes());
+}
+
+void PoseVolume::setExtent(const Eigen::Vector3d& extent) {
+  for (int axis = 0; axis < 3; ++axis) sides_[axis] = 2.0 * std::max(1.0, extent[axis]);
   sides_.tail<3>().setConstant(planar_ ? 2.0 * M_PI : std::cbrt(kAllRotations));
 }
 

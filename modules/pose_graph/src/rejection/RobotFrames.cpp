@@ -1,5 +1,7 @@
 #include "lamp/pose_graph/RobotFrames.h"
 
+#include <algorithm>
+
 #include "lamp/core/DisjointSets.h"
 #include "rejection/FrameAverages.h"
 
@@ -12,7 +14,26 @@ void RobotFramesOptions::visit(OptionVisitor& v) {
     "number of agreeing loop closures needed to join robots without start poses", {1});
 }
 
-void RobotFrames::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
+namespace {
+
+/** If all that agree wait, the solution would not join the two, and bear out none. */
+void admitWaiting(const FrameAverage& average, Admission& admission) {
+  const std::vector<EdgeIndex>& loops = average.agreeing_loops;
+  if (std::any_of(loops.begin(), loops.end(), [&](EdgeIndex e) { return admission.admitted[e]; }))
+    return;
+  for (const EdgeIndex e : loops) {
+    admission.admitted[e] = true;
+    admission.waiting[e] = false;
+  }
+}
+
+}  // namespace
+
+Admission RobotFrames::reject(const PoseGraph& graph, Admission before) {
+  // Loops that wait for a solution are witnesses, too.
+  std::vector<bool> admitted = before.admitted;
+  for (EdgeIndex e = 0; e < admitted.size(); ++e)
+    if (before.waiting[e]) admitted[e] = true;
   const OdometryChains chains(graph);
   DisjointSets frames(static_cast<size_t>(chains.size()));
   int in_world = -1;
@@ -28,24 +49,26 @@ void RobotFrames::reject(const PoseGraph& graph, std::vector<bool>& admitted) {
     const Edge& edge = graph.edges()[e];
     if (edge.pinned && admitted[e]) frames.join(chains.chain(edge.from), chains.chain(edge.to));
   }
-  agreements_.clear();
   std::vector<FrameAverage> unknown;
   for (const FrameAverage& average : frameAverages(graph, chains, admitted))
     if (!frames.joined(average.a, average.b)) unknown.push_back(average);
+  for (const FrameAverage& average : unknown) {
+    if (average.agreeing < static_cast<size_t>(options_.min_agreeing)) continue;
+    frames.join(average.a, average.b);
+    admitWaiting(average, before);
+  }
   for (const FrameAverage& average : unknown)
-    if (average.agreeing >= static_cast<size_t>(options_.min_agreeing))
-      frames.join(average.a, average.b);
-  for (const FrameAverage& average : unknown)
-    agreements_.push_back({chains.first(average.a).robot, chains.first(average.b).robot,
-                           average.loops, average.agreeing,
-                           static_cast<size_t>(options_.min_agreeing),
-                           frames.joined(average.a, average.b)});
+    before.frames.push_back({chains.first(average.a).robot, chains.first(average.b).robot,
+                             average.loops, average.agreeing,
+                             static_cast<size_t>(options_.min_agreeing),
+                             frames.joined(average.a, average.b)});
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {
     const Edge& edge = graph.edges()[e];
     if (edge.isLoopClosure() && !edge.pinned &&
         !frames.joined(chains.chain(edge.from), chains.chain(edge.to)))
-      admitted[e] = false;
+      before.admitted[e] = before.waiting[e] = false;
   }
+  return before;
 }
 
 }  // namespace lamp

@@ -14,6 +14,7 @@ class GemanMcClure : public Graduation {
   double weight(double residual2) const override;
   void sharpen(double step) override;
   bool exactFor(const std::vector<double>&) const override { return mu_ <= 1.0; }
+  bool sharp() const override { return mu_ <= 1.0; }
 
  private:
   double mu_ = 1.0;

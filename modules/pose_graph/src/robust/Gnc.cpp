@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "guess/SolveStart.h"
 #include "lamp/core/ChiSquare.h"
@@ -35,6 +36,7 @@ struct GncLoop {
   double threshold;  ///< the largest squared residual of an inlier
   double weight = 1.0;
   bool graduated = true;  ///< else it keeps its weight until the last stage
+  bool left_out = false;  ///< the truncated cost was lower without it
 };
 
 std::vector<GncLoop> gncLoops(const PoseGraph& graph, const std::vector<bool>& admitted,
@@ -55,7 +57,7 @@ std::vector<GncLoop> gncLoops(const PoseGraph& graph, const std::vector<bool>& a
 /** Loops that were judged before keep their verdict until the last stage, which judges all. */
 void keepVerdicts(const GncMemory& memory, std::vector<GncLoop>& loops) {
   for (GncLoop& loop : loops) {
-    loop.graduated = loop.edge >= memory.edges.size();
+    loop.graduated = loop.edge >= memory.edges.size() || !memory.admitted[loop.edge];
     if (!loop.graduated) loop.weight = memory.inlier[loop.edge] ? 1.0 : 0.0;
   }
 }
@@ -89,16 +91,37 @@ class GncRun {
 
   OptimizationResult run() {
     if (!loops_.empty()) solveFromGuess(first_);
-    if (largest(residuals2()) > 1.0 && !trim()) {
+    if (largest(residuals2()) > 1.0 && !trim() && !solveWithAll()) {
       if (options_.gnc_bias_odom) problem_->setPoses(start_.poses);
       graduation_->start(std::max(largest(residuals2()), kLeastStart));
       graduate();
     }
     settle();
+    if (best_cost_ < kClearly * truncatedCost()) settleFromBest();
     return result();
   }
 
  private:
+  /** A graph without false loops may be far from the guess: goes on while each solve halves the
+   * loops that disagree. With false ones there is hardly an end to it. \return whether all agree.
+   */
+  bool solveWithAll() {
+    stopping_ = "all loops agree";
+    solveFromGuess(first_);
+    size_t before = loops_.size(), now = disagreeing();
+    while (!solved_ && now > 0 && now <= before / 2) {
+      before = now;
+      solve(first_);
+      now = disagreeing();
+    }
+    return now == 0;
+  }
+
+  size_t disagreeing() const {
+    return static_cast<size_t>(std::count_if(loops_.begin(), loops_.end(),
+                                             [&](const GncLoop& l) { return residual2(l) > 1.0; }));
+  }
+
   /** Takes the worst loops out until the others agree. Each solve starts anew: out of the shape
    * that false loops gave it, the graph finds its way back slowly.
    * \return whether so few had to go that no other set of loops can be as large. */
@@ -128,6 +151,10 @@ class GncRun {
         stopping_ = "no loop left in doubt";
         return;
       }
+      if (graduation_->sharp()) {
+        stopping_ = "few loops left in doubt";
+        return;
+      }
       solveFromGuess(inner_);
       graduation_->sharpen(options_.mu_step);
     }
@@ -147,6 +174,10 @@ class GncRun {
         solveFromGuess(first_);
         continue;
       }
+      if (same && admitByTakingIn()) {
+        solve(first_);
+        continue;
+      }
       if (same && (full || solved_)) return;
       full = same;
     }
@@ -156,21 +187,70 @@ class GncRun {
   /** Takes out loops without which the truncated cost is lower: to these others have given way. If
    * there are several, the worst ones, since those make others look bad. \return whether any is. */
   bool rejectByLeavingOut() {
-    std::vector<GncLoop*> judged;
-    std::vector<EdgeIndex> edges;
-    for (GncLoop& loop : loops_) {
-      if (loop.weight == 0.0 || !loop.graduated) continue;
-      judged.push_back(&loop);
-      edges.push_back(loop.edge);
-    }
-    if (judged.empty()) return false;
-    std::vector<double> distances2 = problem_->leaveOneOut2(edges);
-    for (size_t i = 0; i < judged.size(); ++i) distances2[i] /= judged[i]->threshold;
+    const std::vector<GncLoop*> judged =
+        graduatedLoops([](const GncLoop& l) { return l.weight > 0; });
+    const std::vector<double> distances2 = distancesToOthers2(judged);
     const double worst = largest(distances2);
     if (!(worst > 1.0)) return false;
-    for (size_t i = 0; i < judged.size(); ++i)
-      if (distances2[i] > std::max(1.0, worst / kTrimmedFactor)) setWeight(*judged[i], 0.0);
+    for (size_t i = 0; i < judged.size(); ++i) {
+      if (!(distances2[i] > std::max(1.0, worst / kTrimmedFactor))) continue;
+      setWeight(*judged[i], 0.0);
+      judged[i]->left_out = true;
+    }
     return true;
+  }
+
+  /** The reverse: takes in loops that do not agree with the solution, but would if it gave way to
+   * them as far as its covariance allows. \return whether any is. */
+  bool admitByTakingIn() {
+    const std::vector<GncLoop*> judged = graduatedLoops([&](const GncLoop& l) {
+      return l.weight == 0 && !l.left_out && graph_.edges()[l.edge].isLoopClosure();
+    });
+    const std::vector<double> distances2 = distancesToOthers2(judged);
+    bool any = false;
+    for (size_t i = 0; i < judged.size(); ++i) {
+      if (!(distances2[i] <= 1.0)) continue;
+      setWeight(*judged[i], 1.0);
+      any = true;
+    }
+    return any;
+  }
+
+  template <class Which>
+  std::vector<GncLoop*> graduatedLoops(Which which) {
+    std::vector<GncLoop*> chosen;
+    for (GncLoop& loop : loops_)
+      if (loop.graduated && which(loop)) chosen.push_back(&loop);
+    return chosen;
+  }
+
+  /** In units of the thresholds. */
+  std::vector<double> distancesToOthers2(const std::vector<GncLoop*>& loops) {
+    if (loops.empty()) return {};
+    std::vector<EdgeIndex> edges;
+    for (const GncLoop* loop : loops) edges.push_back(loop->edge);
+    std::vector<double> distances2 = problem_->leaveOneOut2(edges);
+    for (size_t i = 0; i < loops.size(); ++i) distances2[i] /= loops[i]->threshold;
+    return distances2;
+  }
+
+  /** Of the poses as they are, with the verdicts that make it least. */
+  double truncatedCost() const {
+    double sum = 0;
+    auto loop = loops_.begin();
+    for (EdgeIndex e = 0; e < graph_.edges().size(); ++e) {
+      if (loop != loops_.end() && loop->edge == e)
+        sum += std::min(1.0, residual2(*loop)) * loop->threshold, ++loop;
+      else if (!graph_.edges()[e].mayBeRejected())
+        sum += problem_->chi2(e);
+    }
+    return 0.5 * sum;
+  }
+
+  /** Another minimum that the run has seen is lower than the one in which it has ended. */
+  void settleFromBest() {
+    problem_->setPoses(best_poses_);
+    settle();
   }
 
   void solveFromGuess(const SolverOptions& options) {
@@ -185,6 +265,10 @@ class GncRun {
     if (rounds_ == 0) initial_cost_ = last_.initial_cost;
     iterations_ += last_.iterations;
     ++rounds_;
+    const double cost = truncatedCost();
+    if (!last_.usable || !(cost < best_cost_)) return;
+    best_cost_ = cost;
+    best_poses_ = problem_->poses();
   }
 
   /** Weighs all loops, or the graduated ones, by their residuals. \return true if no weight
@@ -263,6 +347,7 @@ class GncRun {
   static constexpr double kTrimmedFactor = 4.0;
   static constexpr double kMaxTrimmed = 0.1;
   static constexpr int kMaxSettlingRounds = 20;
+  static constexpr double kClearly = 1.0 - 1e-6;
   /** Odometry alone may agree with all loops where their solution does not. */
   static constexpr double kLeastStart = 2.0;
   /** Weights that change by a factor in each round do not need the last digits. */
@@ -284,6 +369,8 @@ class GncRun {
   int rounds_ = 0;
   int iterations_ = 0;
   double initial_cost_ = 0;
+  double best_cost_ = std::numeric_limits<double>::infinity();  ///< the least truncated cost seen
+  std::vector<Pose3> best_poses_;
 };
 
 }  // namespace
@@ -325,7 +412,7 @@ OptimizationResult Gnc::optimize(const PoseGraph& graph, const std::vector<bool>
     }
   }
   if (result.report.usable && options_.incremental) {
-    memory_ = remember(graph, result);
+    memory_ = remember(graph, admitted, result);
     memory_.doubtful_loops = doubtful;
   }
   return result;

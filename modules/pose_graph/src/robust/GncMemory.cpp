@@ -38,10 +38,12 @@ std::vector<Pose3> continuedPoses(const PoseGraph& graph, const GncMemory& memor
   return poses;
 }
 
-GncMemory remember(const PoseGraph& graph, const OptimizationResult& result) {
+GncMemory remember(const PoseGraph& graph, const std::vector<bool>& admitted,
+                   const OptimizationResult& result) {
   GncMemory memory;
   for (const Node& node : graph.nodes()) memory.nodes.push_back(node.id);
   memory.edges = graph.edges();
+  memory.admitted = admitted;
   memory.inlier.assign(graph.edges().size(), true);
   for (const LoopVerdict& loop : result.loops)
     memory.inlier[loop.edge] = loop.verdict == Verdict::kInlier;

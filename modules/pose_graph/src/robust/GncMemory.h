@@ -16,6 +16,7 @@ std::vector<Pose3> continuedPoses(const PoseGraph& graph, const GncMemory& memor
                                   const std::vector<Pose3>& guess);
 
 /** What there is to remember of a usable result. */
-GncMemory remember(const PoseGraph& graph, const OptimizationResult& result);
+GncMemory remember(const PoseGraph& graph, const std::vector<bool>& admitted,
+                   const OptimizationResult& result);
 
 }  // namespace lamp

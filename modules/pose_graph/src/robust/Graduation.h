@@ -19,6 +19,8 @@ class Graduation {
   virtual void sharpen(double step) = 0;
   /** The cost is the robust one already for such residuals. */
   virtual bool exactFor(const std::vector<double>& residuals2) const = 0;
+  /** The cost is the robust one but for residuals within a tenth of the largest of an inlier. */
+  virtual bool sharp() const = 0;
 };
 
 }  // namespace lamp

@@ -9,6 +9,9 @@ namespace lamp {
 
 namespace {
 
+/** Squared distance beyond which it does not matter how much more it is: no threshold is larger. */
+constexpr double kFarAway = 100.0;
+
 /** Blocks of the inverse of the normal equations' matrix, for rows that terms join. */
 template <int kDof>
 class InverseBlocks {
@@ -20,8 +23,11 @@ class InverseBlocks {
     if (!few) selected_ = selectedInverse(cholesky);
   }
 
+  /** Of any two rows. */
+  Block apart(int row, int column) { return product(columnOf(row), columnOf(column)); }
+
   Block operator()(int row, int column) {
-    if (selected_.empty()) return product(columnOf(row), columnOf(column));
+    if (selected_.empty()) return apart(row, column);
     const SymbolicCholesky& symbolic = cholesky_.symbolic();
     const int i = symbolic.place(row), j = symbolic.place(column);
     if (i >= j) return selected_[symbolic.entry(i, j)];
@@ -53,19 +59,58 @@ class InverseBlocks {
   std::unordered_map<int, Column> columns_;
 };
 
-/** S = J H⁻¹ Jᵀ of a term. */
+/** A term beside the solution. */
 template <class Space>
-typename Space::Jacobian covariance(InverseBlocks<Space::kDof>& inverse, int from, int to,
-                                    const typename Space::Jacobian& d_from,
-                                    const typename Space::Jacobian& d_to) {
+struct Beside {
   using Block = typename Space::Jacobian;
-  Block S = Block::Zero();
-  if (to >= 0) S += d_to * inverse(to, to) * d_to.transpose();
-  if (from >= 0) S += d_from * inverse(from, from) * d_from.transpose();
-  if (to < 0 || from < 0) return S;
-  const Block cross = d_from * inverse(from, to) * d_to.transpose();
-  return S + cross + cross.transpose();
-}
+
+  const PoseTerm<Space>& term;
+  typename Space::Tangent error;
+  Block d_from, d_to;
+  int from, to;  ///< rows, -1 for none
+
+  Beside(const PoseTerm<Space>& of, const std::vector<typename Space::Pose>& poses,
+         const std::vector<int>& row)
+      : term(of), d_from(Block::Zero()), from(of.isUnary() ? -1 : row[of.from]), to(row[of.to]) {
+    error = of.error(poses[of.from], poses[of.to], of.isUnary() ? nullptr : &d_from, &d_to);
+  }
+
+  /** S = J H⁻¹ Jᵀ without the parts that both ends have in common. */
+  Block ofEnds(InverseBlocks<Space::kDof>& inverse) const {
+    Block S = Block::Zero();
+    if (to >= 0) S += d_to * inverse(to, to) * d_to.transpose();
+    if (from >= 0) S += d_from * inverse(from, from) * d_from.transpose();
+    return S;
+  }
+  Block ofBoth(const Block& between) const {
+    const Block cross = d_from * between * d_to.transpose();
+    return cross + cross.transpose();
+  }
+  bool twoEnds() const { return to >= 0 && from >= 0; }
+
+  /** eᵀ (Ω⁻¹ + sign S)⁻¹ e, which a singular Ω does not harm. */
+  double distance2(const Block& S, double sign) const {
+    constexpr double kLeastRedundancy = 1e-9;
+    const Block M = (1.0 + kLeastRedundancy) * Block::Identity() + sign * S * term.information;
+    return error.dot(term.information * M.partialPivLu().solve(error));
+  }
+
+  /** Of a term that takes part, which the others have less of. */
+  double withoutIt(InverseBlocks<Space::kDof>& inverse) const {
+    Block S = ofEnds(inverse);
+    if (twoEnds()) S += ofBoth(inverse(from, to));
+    return distance2(S, -1.0);
+  }
+
+  /** Of a term that takes no part. Its ends may not be joined in the structure; a lower bound that
+   * needs no more than that (cov(a - b) <= 2 cov(a) + 2 cov(b)) is enough if it is large. */
+  double beyond(InverseBlocks<Space::kDof>& inverse, double enough) const {
+    const Block S = ofEnds(inverse);
+    if (!twoEnds()) return distance2(S, 1.0);
+    const double least = distance2(2.0 * S, 1.0);
+    return least > enough ? least : distance2(S + ofBoth(inverse.apart(from, to)), 1.0);
+  }
+};
 
 }  // namespace
 
@@ -75,21 +120,13 @@ std::vector<double> leaveOneOut2(const std::vector<PoseTerm<Space>>& terms,
                                  const std::vector<int>& row,
                                  const BlockCholesky<Space::kDof>& cholesky,
                                  const std::vector<EdgeIndex>& edges) {
-  using Block = typename Space::Jacobian;
   constexpr size_t kFew = 20;
-  constexpr double kLeastRedundancy = 1e-9;
   InverseBlocks<Space::kDof> inverse(cholesky, edges.size() <= kFew);
   std::vector<double> distances2;
   for (const EdgeIndex edge : edges) {
-    const PoseTerm<Space>& term = terms[edge];
-    Block d_from = Block::Zero(), d_to;
-    const auto error =
-        term.error(poses[term.from], poses[term.to], term.isUnary() ? nullptr : &d_from, &d_to);
-    const Block S = covariance<Space>(inverse, term.isUnary() ? -1 : row[term.from], row[term.to],
-                                      d_from, d_to);
-    // (Ω⁻¹ - S)⁻¹ = Ω (I - S Ω)⁻¹, which a singular Ω does not harm.
-    const Block redundancy = (1.0 + kLeastRedundancy) * Block::Identity() - S * term.information;
-    distances2.push_back(error.dot(term.information * redundancy.partialPivLu().solve(error)));
+    const Beside<Space> beside(terms[edge], poses, row);
+    distances2.push_back(terms[edge].weight > 0 ? beside.withoutIt(inverse)
+                                                : beside.beyond(inverse, kFarAway));
   }
   return distances2;
 }

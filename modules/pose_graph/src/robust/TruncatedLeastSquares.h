@@ -15,6 +15,7 @@ class TruncatedLeastSquares : public Graduation {
   void sharpen(double step) override { mu_ *= step; }
   /** No residual lies between the sure inliers and the sure outliers. */
   bool exactFor(const std::vector<double>& residuals2) const override;
+  bool sharp() const override { return mu_ >= 10.0; }
 
  private:
   double inlierLimit() const { return mu_ / (mu_ + 1.0); }

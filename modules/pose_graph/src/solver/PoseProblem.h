@@ -33,11 +33,13 @@ class PoseProblem {
   virtual void setWeight(EdgeIndex edge, double weight) = 0;
   /** Squared Mahalanobis residual at poses(), without the weight. */
   virtual double chi2(EdgeIndex edge) const = 0;
-  /** For each of some edges that take part, the squared Mahalanobis distance of its measurement to
-   * what all other edges say, to first order about poses(), an optimum (Baarda, "A testing
-   * procedure for use in geodetic networks", 1968): by so much the sum of squares falls without the
-   * edge. Its residual may be small though that is large, where the others have given way. Zeros if
-   * the normal equations are singular. */
+  /** For each of some edges, the squared Mahalanobis distance of its measurement to what all other
+   * edges say, to first order about poses(), an optimum (Baarda, "A testing procedure for use in
+   * geodetic networks", 1968): by so much the sum of squares falls without the edge, or rises with
+   * one that takes no part. The residual of the former may be small though that is large, where the
+   * others have given way; that of the latter large though that is small, where they would. Of
+   * edges that take no part, a lower bound if it is beyond any threshold. Zeros if the normal
+   * equations are singular. */
   virtual std::vector<double> leaveOneOut2(const std::vector<EdgeIndex>& edges) = 0;
   /** Moves poses() to a minimum; leaves them alone if the summary is not usable. */
   virtual SolveSummary solve(const SolverOptions& options) = 0;

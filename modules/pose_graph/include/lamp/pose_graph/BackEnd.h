@@ -21,6 +21,9 @@ struct BackEnd {
   OptimizationResult optimize(const PoseGraph& graph) const {
     return optimize(graph, std::vector<bool>(graph.edges().size(), true));
   }
+
+ private:
+  OptimizationResult optimize(const PoseGraph& graph, Admission admission) const;
 };
 
 }  // namespace lamp

@@ -11,17 +11,20 @@ struct ChanceAgreementOptions {
   void visit(OptionVisitor& v);
 };
 
-/** Rejects loop closures whose agreement with odometry and with each other may be chance.
+/** Lets loop closures wait whose agreement with odometry and with each other may be chance.
  *
  * Where odometry hardly knows how two key nodes lie, it agrees with nearly any loop closure between
  * them, and so does an optimisation if no other loop contradicts it. For each loop this is
  * computed: the chance p that a false one, its relative pose uniform over the map's extent, lies in
- * the ellipsoid that odometry allows; and for the k loops next to it (both ends within
- * `partner_nodes` along odometry) the sum λ of the chances that a false one closes the cycle with
- * it. A loop that s of them agree with stays if for some k p · k · min(1, λ)^s is small enough: if
- * chance does not explain what is seen (the a-contrario test of Desolneux, Moisan, Morel, "From
- * Gestalt Theory to Image Analysis", 2008, to first order). Loops between robots that nothing
- * relates are RobotFrames' part. */
+ * the ellipsoid that odometry allows (1 where nothing relates its key nodes); and for the k loops
+ * next to it (both ends within `partner_nodes` along odometry) the sum λ of the chances that a
+ * false one closes the cycle with it. A loop that s of them agree with is admitted if for some k p
+ * · k · min(1, λ)^s is small enough: if chance does not explain what is seen (the a-contrario test
+ * of Desolneux, Moisan, Morel, "From Gestalt Theory to Image Analysis", 2008, to first order).
+ * Small enough is what admits less than one of Admission::false_loops; where odometry can judge no
+ * loop, `max_chance`.
+ *
+ * The others wait for the solution without them (Admission::waiting). */
 class ChanceAgreement : public OutlierRejection {
   DEFINE_MRPT_OBJECT(ChanceAgreement, lamp)
 
@@ -29,7 +32,7 @@ class ChanceAgreement : public OutlierRejection {
   explicit ChanceAgreement(const ChanceAgreementOptions& options = {}) : options_(options) {}
 
   void visit(OptionVisitor& options) override { options_.visit(options); }
-  void reject(const PoseGraph& graph, std::vector<bool>& admitted) override;
+  Admission reject(const PoseGraph& graph, Admission before) override;
 
  private:
   ChanceAgreementOptions options_;

@@ -9,7 +9,7 @@ struct GncOptions {
   std::string solver = "Lm";
   std::string loss = "TruncatedLeastSquares";
   double inlier_probability = 0.9999;
-  double mu_step = 1.6;
+  double mu_step = 2.5;
   int max_rounds = 100;
   int inner_iterations = 10;
   bool gnc_bias_odom = true;
@@ -23,9 +23,9 @@ struct GncOptions {
 struct GncMemory {
   std::vector<KeyNodeId> nodes;
   std::vector<Edge> edges;
-  std::vector<bool> inlier;   ///< of each edge
-  std::vector<Pose3> poses;   ///< of each node
-  size_t doubtful_loops = 0;  ///< rejected since all loops were weighed together
+  std::vector<bool> admitted, inlier;  ///< of each edge
+  std::vector<Pose3> poses;            ///< of each node
+  size_t doubtful_loops = 0;           ///< rejected since all loops were weighed together
 };
 
 /** Graduated non-convexity over the loop closures; odometry and priors are known inliers.
@@ -38,10 +38,12 @@ struct GncMemory {
  * distribution with as many degrees of freedom as its information matrix has rank.
  *
  * A round ends the graduation only if no weight has changed in it and the cost is the robust one
- * for all residuals; not because the cost stays, nor because all weights are 0 or 1.
+ * for all residuals, or for all but those next to the threshold; not because the cost stays, nor
+ * because all weights are 0 or 1.
  *
  * The last stage also rejects loops without which the truncated cost is lower
- * (PoseProblem::leaveOneOut2()): their own residuals may be small.
+ * (PoseProblem::leaveOneOut2()), though their own residuals may be small, and takes those in again
+ * with which it is lower, though theirs may be large.
  *
  * A graph that has grown since the last call is updated: only the new loops are graduated, from the
  * last poses, among loops that keep their weights; the last stage then judges all loops, so that

@@ -40,7 +40,7 @@ class Icm : public OutlierRejection {
   ~Icm() override;
 
   void visit(OptionVisitor& options) override { options_.visit(options); }
-  void reject(const PoseGraph& graph, std::vector<bool>& admitted) override;
+  Admission reject(const PoseGraph& graph, Admission before) override;
 
  private:
   class Group;

@@ -34,6 +34,9 @@ class MarginalCovariances : public UncertaintyQuery {
    * relative to its first key node. \throws std::out_of_range. */
   Matrix6d covariance(KeyNodeId id) const;
 
+  /** The same of all nodes, in their order, for the price of a few factorisations. */
+  std::vector<Matrix6d> covariances() const;
+
   /** Covariance of `world_p`, relative to the same; zero if nothing moves the landmark.
    * \throws std::out_of_range. */
   Eigen::Matrix3d landmarkCovariance(LandmarkIndex landmark) const;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "lamp/core/PoseGraph.h"
@@ -22,18 +24,35 @@ struct FrameAgreement {
   double contradicting = 0;
 };
 
+/** What is known of a graph's edges before the optimisation. */
+struct Admission {
+  /** \param admitted one flag for each edge, whether it may take part. */
+  explicit Admission(std::vector<bool> admitted_edges = {})
+      : admitted(std::move(admitted_edges)),
+        waiting(admitted.size(), false),
+        likely(admitted.size(), false) {}
+
+  std::vector<bool> admitted;
+  /** Loop closures that are not admitted, but are to be when the solution without them bears them
+   * out (borneOut()). */
+  std::vector<bool> waiting;
+  std::vector<bool> likely;     ///< those waiting loops that need only agree with that solution
+  double odometry_scale = 1.0;  ///< by which covariances of odometry are larger than stated
+  /** How many false loops there are, as far as odometry tells. */
+  double false_loops = std::numeric_limits<double>::infinity();
+  /** A loop is admitted if a false one would agree so well with at most this probability. */
+  double max_chance = 1.0;
+  std::vector<FrameAgreement> frames;
+};
+
 /** Decides before the optimisation which loop closures may take part in it (paper II-D). */
 class OutlierRejection : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(OutlierRejection)
 
  public:
-  /** \param admitted one flag for each edge; those of loops that must stay out are cleared. Loops
-   *  that are out already are not looked at. */
-  virtual void reject(const PoseGraph& graph, std::vector<bool>& admitted) = 0;
-  /** Of the last reject(): by how much covariances of odometry are larger than stated. */
-  virtual double odometryScale() const { return 1.0; }
-  /** Of the last reject(). */
-  virtual std::vector<FrameAgreement> agreements() const { return {}; }
+  /** \param before what former stages found: loops that are out already stay out.
+   * \return the same with what this stage finds. */
+  virtual Admission reject(const PoseGraph& graph, Admission before) = 0;
 };
 
 }  // namespace lamp

@@ -22,12 +22,10 @@ class RobotFrames : public OutlierRejection {
   explicit RobotFrames(const RobotFramesOptions& options = {}) : options_(options) {}
 
   void visit(OptionVisitor& options) override { options_.visit(options); }
-  void reject(const PoseGraph& graph, std::vector<bool>& admitted) override;
-  std::vector<FrameAgreement> agreements() const override { return agreements_; }
+  Admission reject(const PoseGraph& graph, Admission before) override;
 
  private:
   RobotFramesOptions options_;
-  std::vector<FrameAgreement> agreements_;
 };
 
 }  // namespace lamp

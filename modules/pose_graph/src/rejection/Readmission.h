@@ -1,0 +1,18 @@
+#pragma once
+
+#include "lamp/pose_graph/Optimizer.h"
+#include "lamp/pose_graph/OutlierRejection.h"
+
+namespace lamp {
+
+/** Waiting loop closures that a solution without them bears out.
+ *
+ * A loop is taken if it agrees with what the solution says of the relative pose of its key nodes,
+ * within the covariances of both, and if chance does not explain that: a false loop's relative pose
+ * is uniform over the map, and would seldom lie so near. So is one that agrees within its own
+ * covariance alone.
+ * \param graph that was optimised; \param result of it. */
+std::vector<EdgeIndex> borneOut(const PoseGraph& graph, const OptimizationResult& result,
+                                const Admission& admission);
+
+}  // namespace lamp
