@@ -33,8 +33,10 @@ std::optional<InertialReading> inertialFromObservation(const InputObservation& o
   const Eigen::Matrix3d base_R_sensor = poseFromMrpt(imu->sensorPose).linear();
   const Eigen::Vector3d force(imu->get(IMU_X_ACC), imu->get(IMU_Y_ACC), imu->get(IMU_Z_ACC));
   const Eigen::Vector3d turn(imu->get(IMU_WX), imu->get(IMU_WY), imu->get(IMU_WZ));
-  if (!force.allFinite() || !turn.allFinite()) return std::nullopt;
-  return InertialReading{base_R_sensor * force, base_R_sensor * turn};
+  const InertialReading reading{base_R_sensor * force, base_R_sensor * turn};
+  if (!reading.specific_force.allFinite() || !reading.angular_velocity.allFinite())
+    return std::nullopt;
+  return reading;
 }
 
 std::vector<LandmarkSighting> sightingsFromObservation(const InputObservation& observation) {
@@ -42,6 +44,7 @@ std::vector<LandmarkSighting> sightingsFromObservation(const InputObservation& o
       dynamic_cast<const CObservationBearingRange*>(observation.observation.get());
   if (!view) return {};
   const Pose3 base_T_sensor = poseFromMrpt(view->sensorLocationOnRobot);
+  if (!isFinite(base_T_sensor)) return {};
   std::vector<LandmarkSighting> sightings;
   for (const auto& seen : view->sensedData) {
     const double range = seen.range;
@@ -77,11 +80,10 @@ std::vector<RangeReading> rangesFromObservation(const InputObservation& observat
     const bool within =
         range > 0 && range >= ranges->minSensorDistance && range <= ranges->maxSensorDistance;
     if (sensed.beaconID == INVALID_BEACON_ID || !within) continue;
-    const auto& antenna = sensed.sensorLocationOnRobot;
-    readings.push_back({observation.stamp,
-                        sensed.beaconID,
-                        {antenna.x(), antenna.y(), antenna.z()},
-                        range,
+    const auto& at = sensed.sensorLocationOnRobot;
+    const Eigen::Vector3d antenna(at.x(), at.y(), at.z());
+    if (!antenna.allFinite() || !std::isfinite(range)) continue;
+    readings.push_back({observation.stamp, sensed.beaconID, antenna, range,
                         std::max(kLeastSigmaM, static_cast<double>(ranges->stdError))});
   }
   return readings;

@@ -36,6 +36,9 @@ TEST(ExtrasFromObservation, AnInertialUnitIsTurnedToTheBase) {
   EXPECT_TRUE(reading->angular_velocity.isApprox(Eigen::Vector3d(-0.5, 0, 0), 1e-9));
   imu->set(IMU_WY, kNaN);
   EXPECT_FALSE(inertialFromObservation(input(imu, "imu")));
+  imu->set(IMU_WY, 0.5);
+  imu->sensorPose = mrpt::poses::CPose3D(0, 0, 0, kNaN, 0, 0);
+  EXPECT_FALSE(inertialFromObservation(input(imu, "imu"))) << "who knows how it is mounted?";
 }
 
 /** MRPT itself knows where the landmark is. */
