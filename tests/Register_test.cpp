@@ -119,7 +119,8 @@ std::string surveyPly(const Points& points, const Eigen::Vector3d& origin, bool 
                      std::to_string(points.size()) +
                      "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
   for (const auto& p : points)
-    for (const double coordinate : p + origin) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double coordinate = p[axis] + origin[axis];
       const double value = as_floats ? static_cast<float>(coordinate) : coordinate;
       text.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
@@ -127,7 +128,8 @@ std::string surveyPly(const Points& points, const Eigen::Vector3d& origin, bool 
 }
 
 Eigen::Vector3d offsetOf(const nlohmann::json& cloud) {
-  return {cloud["offset"][0], cloud["offset"][1], cloud["offset"][2]};
+  return Eigen::Vector3d(cloud["offset"][0].get<double>(), cloud["offset"][1].get<double>(),
+                         cloud["offset"][2].get<double>());
 }
 
 TEST_F(RegisterPair, WorksInSurveyCoordinates) {
