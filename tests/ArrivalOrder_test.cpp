@@ -132,7 +132,7 @@ TEST_F(InArrivalOrder, AFileThatIsWrongIsNamedBeforeTheRunStarts) {
   experiment_.file("B.arrivals.csv", "stamp,arrival\n1000,1000\n1001,soon\n");
   LampResult end = run("run");
   EXPECT_EQ(end.exit_code, kFailed);
-  EXPECT_THAT(end.err, HasSubstr("B.arrivals.csv:3: arrival 'soon' is no finite number"));
+  EXPECT_THAT(end.err, HasSubstr("B.arrivals.csv:3: arrival 'soon' is not a finite number"));
 
   std::filesystem::remove(experiment_.path("B.arrivals.csv"));
   end = run("run");

@@ -98,13 +98,13 @@ start_pose = [1 2 3]
   const LampResult end = experiment.run({ini, "any.rawlog", "--set", "run.sed=3"});
   EXPECT_EQ(end.exit_code, kWrongUse);
   EXPECT_FALSE(experiment.result().has(""));
-  EXPECT_THAT(end.err, AllOf(HasSubstr(ini + ":5: key 'min_range_m' is there twice"),
+  EXPECT_THAT(end.err, AllOf(HasSubstr(ini + ":5: key 'min_range_m' appears twice"),
                              HasSubstr("first at " + ini + ":4"),
                              HasSubstr(ini + ":13: 'this line is nothing'")));
   EXPECT_THAT(end.err,
               AllOf(HasSubstr(ini + ":2: [frontend] has no key 'key_node_distnce_m' (did you mean "
                                     "'key_node_distance_m'?)"),
-                    HasSubstr(ini + ":3: [frontend] max_range_m = 12x: is no number"),
+                    HasSubstr(ini + ":3: [frontend] max_range_m = 12x: is not a number"),
                     HasSubstr(ini + ":8: [pipeline] optimizer: there is no optimizer 'Gnnc' (did "
                                     "you mean 'Gnc'?); known: CeresLm, Gn, Gnc, Lm"),
                     HasSubstr(ini + ":9: [pipeline] inter_robot_loops = maybe: must be true or"),
@@ -148,7 +148,7 @@ key = x
 )");
   const LampResult end = experiment.run({ini, "any.rawlog"});
   EXPECT_EQ(end.exit_code, kWrongUse);
-  EXPECT_THAT(end.err, HasSubstr(ini + ":6: section [robot.one] is there twice"));
+  EXPECT_THAT(end.err, HasSubstr(ini + ":6: section [robot.one] appears twice"));
   EXPECT_THAT(end.err, HasSubstr(ini + ":3: robot 'two': the key 'x' is taken"));
   EXPECT_THAT(end.err, HasSubstr(ini + ":5: robot name 'not a name'"));
 }

@@ -231,7 +231,7 @@ TEST_F(RegisterPair, FilesThatCannotBeUsedAreFailures) {
   };
   expect_failure(experiment_.path("missing.pcd"), "there is no such file");
   expect_failure(file("none.ply", plyText({})), "holds no point");
-  expect_failure(file("bad.pcd", "VERSION 0.7\nFIELDS\nrubbish\n"), ":3: is no line");
+  expect_failure(file("bad.pcd", "VERSION 0.7\nFIELDS\nrubbish\n"), ":3: is not a line");
   expect_failure(file("cloud.xyz", "1 2 3\n"), ".ply or .pcd");
   expect_failure(file("far.ply", plyText({{1e7, 0, 0}})), "rounds them to 1 m");
 }

@@ -78,14 +78,14 @@ class ActionRow {
   double number(const std::string& column) const {
     double value = 0;
     if (!parseDouble(required(column), value) || !std::isfinite(value))
-      fail(column + " '" + cell(column) + "' is no finite number");
+      fail(column + " '" + cell(column) + "' is not a finite number");
     return value;
   }
 
   size_t count(const std::string& column) const {
     const double value = number(column);
     if (value < 0 || value != std::floor(value) || value > 1e15)
-      fail(column + " '" + cell(column) + "' is no count");
+      fail(column + " '" + cell(column) + "' is not a count");
     return static_cast<size_t>(value);
   }
 
@@ -120,7 +120,7 @@ class ActionRow {
     action.to = required("to");
     const Eigen::Quaterniond q(number("qw"), number("qx"), number("qy"), number("qz"));
     constexpr double kMaxDeviation = 1e-3;
-    if (std::abs(q.norm() - 1) > kMaxDeviation) fail("qx qy qz qw is no unit quaternion");
+    if (std::abs(q.norm() - 1) > kMaxDeviation) fail("qx qy qz qw is not a unit quaternion");
     action.rotation = q;
     action.position << number("x"), number("y"), number("z");
     action.sigma_m = positive("sigma_m");

@@ -61,8 +61,8 @@ TEST(OperatorActions, FaultsNameTheLine) {
   const std::string header = "key_nodes,action,loop_id,robot,from,to,x,y,z,qx,qy,qz,qw,sigma_m\n";
   EXPECT_THAT(faultOf("stamp,action\n"), HasSubstr("actions.csv:1: the header must name"));
   EXPECT_THAT(faultOf("key_nodes,action\n1,freeze\n-1,freeze\n"),
-              HasSubstr("actions.csv:3: key_nodes '-1' is no count"));
-  EXPECT_THAT(faultOf("key_nodes,action\nx,freeze\n"), HasSubstr("is no finite number"));
+              HasSubstr("actions.csv:3: key_nodes '-1' is not a count"));
+  EXPECT_THAT(faultOf("key_nodes,action\nx,freeze\n"), HasSubstr("is not a finite number"));
   EXPECT_THAT(faultOf("key_nodes,action\n1,melt\n"), HasSubstr("there is no action 'melt'; known"));
   EXPECT_THAT(faultOf("key_nodes,action\n1,veto\n"), HasSubstr("needs a loop_id, or from and to"));
   EXPECT_THAT(faultOf("key_nodes,action,from,to\n1,pin,A:1,\n"), HasSubstr("needs a to"));
@@ -72,7 +72,7 @@ TEST(OperatorActions, FaultsNameTheLine) {
   EXPECT_THAT(faultOf(header + "1,add,,,A:1,A:2,0,0,0,0,0,0,1,1\n"),
               HasSubstr("needs a sigma_deg"));
   EXPECT_THAT(faultOf(header + "1,add,,,A:1,A:2,nan,0,0,0,0,0,1,1\n"),
-              HasSubstr("x 'nan' is no finite number"));
+              HasSubstr("x 'nan' is not a finite number"));
 }
 
 TEST(OperatorState, AnIgnoredRobotsLoopsWithOthersStayOut) {

@@ -115,7 +115,7 @@ CloudKind kindOf(const std::string& path) {
   if (extension == ".ply") return CloudKind::kPly;
   if (extension == ".pcd") return CloudKind::kPcd;
   throw std::runtime_error("'" + path +
-                           "' is no cloud that can be read: it must end in .ply or .pcd");
+                           "' cannot be read as a cloud: its name must end in .ply or .pcd");
 }
 
 }  // namespace

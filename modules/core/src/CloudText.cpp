@@ -23,7 +23,7 @@ double CloudText::number(const std::string& word) const {
   double value = 0;
   if (parseDouble(word, value)) return value;
   const bool separated = word.find_first_of(",;") != std::string::npos;
-  fail("'" + word + "' is no number" +
+  fail("'" + word + "' is not a number" +
        (separated ? ": numbers need a decimal point, and spaces between them" : ""));
 }
 

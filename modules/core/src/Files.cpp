@@ -121,7 +121,7 @@ std::unique_ptr<std::istream> openedToRead(const std::string& path) {
   if (!*file || fs::is_directory(path))
     throw std::runtime_error(
         "cannot read '" + path +
-        "': " + (fs::exists(path) ? "it is no readable file" : "there is no such file"));
+        "': " + (fs::exists(path) ? "it is not a readable file" : "there is no such file"));
   return file;
 }
 
@@ -129,7 +129,7 @@ std::string readTextFile(const std::string& path) {
   const auto file = openedToRead(path);
   std::ostringstream text;
   if (file->peek() != EOF && !(text << file->rdbuf()))
-    throw std::runtime_error("cannot read '" + path + "': it is no readable file");
+    throw std::runtime_error("cannot read '" + path + "': it is not a readable file");
   return text.str();
 }
 

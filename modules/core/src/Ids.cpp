@@ -79,7 +79,7 @@ KeyNodeId RobotTable::parse(const std::string& text) const {
   const auto [stop, error] = std::from_chars(digits.data(), end, index);
   const bool is_number = error == std::errc() && stop == end;
   const auto robot = is_number ? find(text.substr(0, colon)) : std::nullopt;
-  if (!robot) throw std::runtime_error("'" + text + "' is no key node of a known robot");
+  if (!robot) throw std::runtime_error("'" + text + "' is not a key node of a known robot");
   return {*robot, index};
 }
 
@@ -97,7 +97,7 @@ KeyNodeId RobotTable::fromSymbol(uint64_t symbol) const {
   for (size_t i = 0; i < robots_.size(); ++i)
     if (robots_[i].letter == letter)
       return {RobotId{static_cast<uint16_t>(i)}, static_cast<uint32_t>(index)};
-  throw std::runtime_error("symbol " + std::to_string(symbol) + " is of no known robot");
+  throw std::runtime_error("symbol " + std::to_string(symbol) + " belongs to no known robot");
 }
 
 std::string robotNameFromStem(const std::string& stem) {

@@ -74,12 +74,12 @@ class IniParser {
     if (line[0] == '[') return parseSection(line, where);
     const size_t equal = line.find('=');
     if (equal == std::string::npos || trimmed(line.substr(0, equal)).empty())
-      return faults_.add(where, "'" + line + "' is no 'key = value', '[section]' or comment");
+      return faults_.add(where, "'" + line + "' is not 'key = value', '[section]' or comment");
     if (section_.empty())
-      return faults_.add(where, "'" + line + "' stands before the first [section]");
+      return faults_.add(where, "'" + line + "' comes before the first [section]");
     const std::string key = trimmed(line.substr(0, equal));
     if (const Ini::Entry* first = ini_.find(section_)->find(key))
-      return faults_.add(where, "key '" + key + "' is there twice, first at " + first->where);
+      return faults_.add(where, "key '" + key + "' appears twice, first at " + first->where);
     const std::string value = trimmed(expanded(trimmed(line.substr(equal + 1)), where));
     requireReadable(value, where, faults_);
     ini_.set(section_, key, value, where);
@@ -96,11 +96,11 @@ class IniParser {
 
   void parseSection(const std::string& line, const std::string& where) {
     if (line.back() != ']' || trimmed(line.substr(1, line.size() - 2)).empty())
-      return faults_.add(where, "'" + line + "' is no [section]");
+      return faults_.add(where, "'" + line + "' is not a [section]");
     section_ = trimmed(line.substr(1, line.size() - 2));
     if (const Ini::Section* first = ini_.find(section_))
       return faults_.add(where,
-                         "section [" + section_ + "] is there twice, first at " + first->where);
+                         "section [" + section_ + "] appears twice, first at " + first->where);
     ini_.addSection(section_, where);
   }
 

@@ -66,7 +66,7 @@ void IniOptionReader::onOption(const OptionInfo& info, double& value) {
   if (!entry) return;
   double number;
   if (!parseDouble(entry->value, number) || std::isnan(number))
-    fault(*entry, "is no number");
+    fault(*entry, "is not a number");
   else if (number < info.range.min || number > info.range.max)
     fault(*entry, describe(info.range));
   else
@@ -79,7 +79,7 @@ void IniOptionReader::onOption(const OptionInfo& info, int& value) {
   double number;
   if (!parseDouble(entry->value, number) || number != std::floor(number) ||
       std::abs(number) > std::numeric_limits<int>::max())
-    fault(*entry, "is no whole number");
+    fault(*entry, "is not a whole number");
   else if (number < info.range.min || number > info.range.max)
     fault(*entry, describe(info.range));
   else
@@ -119,7 +119,7 @@ void IniOptionReader::onOption(const OptionInfo& info, std::vector<double>& valu
   for (const std::string& word : splitWords(text, ' ')) {
     double number;
     if (!parseDouble(word, number) || std::isnan(number))
-      return fault(*entry, "'" + word + "' is no number");
+      return fault(*entry, "'" + word + "' is not a number");
     if (number < info.range.min || number > info.range.max)
       return fault(*entry, describe(info.range));
     numbers.push_back(number);

@@ -84,7 +84,7 @@ void PcdFile::readAscii(const Take& take) const {
     if (!text.next(words))
       fail("ends after " + std::to_string(i) + " of " + std::to_string(header_.points) + " points");
     if (words.size() != expected)
-      text.fail("is no point of " + std::to_string(expected) + " numbers");
+      text.fail("is not a point of " + std::to_string(expected) + " numbers");
     double xyz[3];
     for (int axis = 0; axis < 3; ++axis) xyz[axis] = text.number(words[places[axis]]);
     take(xyz);

@@ -57,7 +57,7 @@ class PcdHeaderReader {
     addPoints();
     addViewpoint();
     const auto data = kData.find(one("DATA"));
-    if (data == kData.end()) fail("DATA", "'" + one("DATA") + "' is no kind of data");
+    if (data == kData.end()) fail("DATA", "'" + one("DATA") + "' is not a known kind of data");
     header_.data = data->second;
     for (size_t axis = 0; axis < 3; ++axis)
       header_.xyz_[axis] = placeOf(std::string(1, "xyz"[axis]));
@@ -77,9 +77,9 @@ class PcdHeaderReader {
       // The name of FIELDS before version 0.7.
       const std::string keyword = words[0] == "COLUMNS" ? "FIELDS" : words[0];
       if (std::find(kKeywords.begin(), kKeywords.end(), keyword) == kKeywords.end())
-        text_.fail("is no line of a PCD header");
+        text_.fail("is not a line of a PCD header");
       Line& line = lines_[keyword];
-      if (line.number != 0) text_.fail(keyword + " is there twice");
+      if (line.number != 0) text_.fail(keyword + " appears twice");
       line.number = text_.line();
       line.values.assign(words.begin() + 1, words.end());
       if (keyword == "DATA") return;
@@ -102,7 +102,7 @@ class PcdHeaderReader {
     double value = 0;
     if (!parseDouble(text, value) || !(value >= 0 && value <= kMaxOfAnything) ||
         value != std::floor(value))
-      fail(keyword, "'" + text + "' is no number of anything");
+      fail(keyword, "'" + text + "' is not a count");
     return static_cast<size_t>(value);
   }
 
@@ -141,7 +141,7 @@ class PcdHeaderReader {
     for (int axis = 0; axis < 3; ++axis)
       if (!parseDouble(all("VIEWPOINT")[axis], header_.viewpoint[axis]) ||
           !std::isfinite(header_.viewpoint[axis]))
-        fail("VIEWPOINT", "is no place");
+        fail("VIEWPOINT", "is not a position");
   }
 
   size_t placeOf(const std::string& name) const {

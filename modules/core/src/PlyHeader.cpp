@@ -35,7 +35,7 @@ class PlyHeaderReader {
 
   PlyHeader header() {
     Words words;
-    if (!text_.next(words) || words[0] != "ply") text_.failAt(1, "is no PLY file");
+    if (!text_.next(words) || words[0] != "ply") text_.failAt(1, "is not a PLY file");
     while (text_.next(words) && words[0] != "end_header") take(words);
     if (words.empty() || words[0] != "end_header") text_.fail("the file ends within its header");
     if (!has_data_) text_.fail("the header has no 'format'");
@@ -82,7 +82,7 @@ class PlyHeaderReader {
     if (words.size() < 3) text_.fail("an element needs a name and a number");
     const double count = text_.number(words[2]);
     if (!(count >= 0 && count < 1e15 && count == std::floor(count)))
-      text_.fail("'" + words[2] + "' is no number of elements");
+      text_.fail("'" + words[2] + "' is not a number of elements");
     header_.elements.push_back({words[1], static_cast<size_t>(count), {}});
   }
 

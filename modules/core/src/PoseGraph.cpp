@@ -62,7 +62,7 @@ const char* toString(Verdict verdict) {
 
 void PoseGraph::addNode(const Node& node) {
   if (!place_.emplace(node.id, nodes_.size()).second)
-    throw std::logic_error("pose graph: key node " + describe(node.id) + " is there already");
+    throw std::logic_error("pose graph: key node " + describe(node.id) + " already exists");
   auto& of_robot = by_robot_[node.id.robot];
   of_robot.insert(std::upper_bound(of_robot.begin(), of_robot.end(), node.id), node.id);
   nodes_.push_back(node);
@@ -95,7 +95,7 @@ EdgeIndex PoseGraph::addEdge(const Edge& edge) {
 
 LandmarkIndex PoseGraph::addLandmark(const Landmark& landmark) {
   if (!landmark_by_name_.emplace(landmark.name, landmarks_.size()).second)
-    throw std::logic_error("pose graph: landmark '" + landmark.name + "' is there already");
+    throw std::logic_error("pose graph: landmark '" + landmark.name + "' already exists");
   landmarks_.push_back(landmark);
   return landmarks_.size() - 1;
 }

@@ -26,7 +26,7 @@ void refuseOtherKinds(const std::string& text, const std::string& where) {
                              kColumns);
   if (startsWith(text, "\xFF\xFE") || startsWith(text, "\xFE\xFF") ||
       text.find('\0') != std::string::npos)
-    throw std::runtime_error(where + ": is no plain text, or text in UTF-16; save it as UTF-8");
+    throw std::runtime_error(where + ": is not plain text, or is in UTF-16; save it as UTF-8");
 }
 
 /** The line's columns. Where semicolons separate them, commas are decimal points. */
@@ -68,7 +68,7 @@ TumRow parseRow(const std::vector<std::string>& columns, int line, const std::st
                              " columns; is no " + kColumns);
   for (size_t i = 0; i < columns.size(); ++i)
     if (!parseDouble(columns[i], row.values[i]) || !std::isfinite(row.values[i]))
-      throw std::runtime_error(where + ": '" + columns[i] + "' is no number; is no " + kColumns);
+      throw std::runtime_error(where + ": '" + columns[i] + "' is not a number; is no " + kColumns);
   return row;
 }
 

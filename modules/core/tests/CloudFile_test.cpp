@@ -194,8 +194,8 @@ TEST(CloudFile, WrongPcdHeadersNameTheLine) {
   EXPECT_THAT(errorOf(pcdWith("1 3 1 1", "1 -3 1 1")), HasSubstr("t.pcd:6: COUNT: '-3'"));
   EXPECT_THAT(errorOf(pcdWith("WIDTH 2", "WIDTH two")), HasSubstr("t.pcd:7: WIDTH: 'two'"));
   EXPECT_THAT(errorOf(pcdWith("WIDTH 2", "WIDTH 1.5")), HasSubstr("t.pcd:7: WIDTH"));
-  EXPECT_THAT(errorOf(pcdWith("HEIGHT 1", "DEPTH 1")), HasSubstr("t.pcd:8: is no line"));
-  EXPECT_THAT(errorOf(pcdWith("HEIGHT 1", "WIDTH 1")), HasSubstr("t.pcd:8: WIDTH is there twice"));
+  EXPECT_THAT(errorOf(pcdWith("HEIGHT 1", "DEPTH 1")), HasSubstr("t.pcd:8: is not a line"));
+  EXPECT_THAT(errorOf(pcdWith("HEIGHT 1", "WIDTH 1")), HasSubstr("t.pcd:8: WIDTH appears twice"));
   EXPECT_THAT(errorOf(pcdWith("0.5 -1 2 1", "0.5 nan 2 1")), HasSubstr("t.pcd:9: VIEWPOINT"));
   EXPECT_THAT(errorOf(pcdWith("0.5 -1 2 1 ", "")), HasSubstr("t.pcd:9: VIEWPOINT"));
   EXPECT_THAT(errorOf(pcdWith("POINTS 2", "POINTS 3")), HasSubstr("t.pcd:10: POINTS"));
@@ -270,7 +270,7 @@ TEST(CloudFile, IsReadFromAnyStream) {
   };
   EXPECT_EQ(from(pcdWith("", ""), CloudKind::kPcd).points.size(), 2u);
   EXPECT_THAT(thrownBy([&] { from(pcdWith("", ""), CloudKind::kPly); }),
-              HasSubstr("memory:1: is no PLY file"));
+              HasSubstr("memory:1: is not a PLY file"));
 }
 
 TEST(CloudFile, CountsThatTheFileHasNoRoomForAreErrors) {

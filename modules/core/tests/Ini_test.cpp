@@ -146,19 +146,19 @@ TEST(Ini, RefusesReplacementsThatNoIniCanHold) {
 
 TEST(Ini, ReportsDuplicatesWithBothPlaces) {
   EXPECT_THAT(faultsOf("[s]\nx = 1\nx = 2\n[t]\n[s]\nx = 3\n"),
-              ElementsAre("t.ini:3: key 'x' is there twice, first at t.ini:2",
-                          "t.ini:5: section [s] is there twice, first at t.ini:1",
-                          "t.ini:6: key 'x' is there twice, first at t.ini:2"));
+              ElementsAre("t.ini:3: key 'x' appears twice, first at t.ini:2",
+                          "t.ini:5: section [s] appears twice, first at t.ini:1",
+                          "t.ini:6: key 'x' appears twice, first at t.ini:2"));
 }
 
 TEST(Ini, ReportsAllFaultsOfFormAtOnce) {
   EXPECT_THAT(faultsOf("early = 1\n[s\n[]\n[s]\nno equal sign\n= 3\n[s] ; x\n"),
-              ElementsAre(HasSubstr("t.ini:1: 'early = 1' stands before the first [section]"),
-                          HasSubstr("t.ini:2: '[s' is no [section]"),
-                          HasSubstr("t.ini:3: '[]' is no [section]"),
-                          HasSubstr("t.ini:5: 'no equal sign' is no 'key = value'"),
-                          HasSubstr("t.ini:6: '= 3' is no 'key = value'"),
-                          HasSubstr("t.ini:7: '[s] ; x' is no [section]")));
+              ElementsAre(HasSubstr("t.ini:1: 'early = 1' comes before the first [section]"),
+                          HasSubstr("t.ini:2: '[s' is not a [section]"),
+                          HasSubstr("t.ini:3: '[]' is not a [section]"),
+                          HasSubstr("t.ini:5: 'no equal sign' is not 'key = value'"),
+                          HasSubstr("t.ini:6: '= 3' is not 'key = value'"),
+                          HasSubstr("t.ini:7: '[s] ; x' is not a [section]")));
 }
 
 TEST(Ini, EmptyTextHasNoSections) {
@@ -238,14 +238,15 @@ TEST(IniOptions, EmptyListIsNotSet) {
 }
 
 TEST(IniOptions, RefusesMalformedNumbers) {
-  EXPECT_EQ(optionFault("radius_m = 1 ; x"), "t.ini:2: [engine] radius_m = 1 ; x: is no number");
+  EXPECT_EQ(optionFault("radius_m = 1 ; x"), "t.ini:2: [engine] radius_m = 1 ; x: is not a number");
   for (const char* text : {"abc", "", "1 # x", "1,5", "nan", "0x10", "1 2"})
-    EXPECT_THAT(optionFault("radius_m = " + std::string(text)), HasSubstr("is no number")) << text;
-  for (const char* text : {"abc", "", "1.5", "3000000000", "nan", "inf"})
-    EXPECT_THAT(optionFault("count = " + std::string(text)), HasSubstr("is no whole number"))
+    EXPECT_THAT(optionFault("radius_m = " + std::string(text)), HasSubstr("is not a number"))
         << text;
-  EXPECT_THAT(optionFault("weights = 0 x 1"), HasSubstr("'x' is no number"));
-  EXPECT_THAT(optionFault("weights = 0 nan"), HasSubstr("'nan' is no number"));
+  for (const char* text : {"abc", "", "1.5", "3000000000", "nan", "inf"})
+    EXPECT_THAT(optionFault("count = " + std::string(text)), HasSubstr("is not a whole number"))
+        << text;
+  EXPECT_THAT(optionFault("weights = 0 x 1"), HasSubstr("'x' is not a number"));
+  EXPECT_THAT(optionFault("weights = 0 nan"), HasSubstr("'nan' is not a number"));
 }
 
 TEST(IniOptions, RefusesWrongWords) {

@@ -109,20 +109,21 @@ TEST(PlyVertices, DamagedFilesAreErrors) {
   const auto error = [](const std::string& content) {
     return thrownBy([&] { readXyzSeen(content); });
   };
-  EXPECT_THAT(error(""), HasSubstr("is no PLY file"));
-  EXPECT_THAT(error("plz"), HasSubstr("is no PLY file"));
+  EXPECT_THAT(error(""), HasSubstr("is not a PLY file"));
+  EXPECT_THAT(error("plz"), HasSubstr("is not a PLY file"));
   EXPECT_THAT(error(good.substr(0, good.size() - 11)), HasSubstr("ends within its header"));
   EXPECT_THAT(error(good + std::string(28, '\0')), HasSubstr("too short for the 2 vertices"));
   EXPECT_THAT(error(header("ascii", "1e12") + "1 2 3 4\n"), HasSubstr("too short for the 1000"));
   EXPECT_THAT(error(header("ascii") + "1 2 3.000000000 4\n"), HasSubstr("at vertex 2 of 2"));
   EXPECT_THAT(error(header("ascii") + "1 2 3 4\n1 x 3 4\n"), HasSubstr("t.ply:13: 'x' is no"));
   EXPECT_THAT(error(header("ascii") + "1 2 3 4\n1 2,5 3 4\n"), HasSubstr("need a decimal point"));
-  EXPECT_THAT(error(header("ascii") + "1 2 3\n1 2 3 4.0000000\n"), HasSubstr("t.ply:12: has only 3"));
+  EXPECT_THAT(error(header("ascii") + "1 2 3\n1 2 3 4.0000000\n"),
+              HasSubstr("t.ply:12: has only 3"));
   EXPECT_THAT(error(header("ascii") + "1 2 3 4 5\n1 2 3 4\n"), HasSubstr("5 values instead of 4"));
   EXPECT_THAT(error(header("ascii") + "1 2 3 4\n1 nan 3 4\n"), HasSubstr("not finite in vertex 2"));
   EXPECT_THAT(error(header("binary_middle_endian")), HasSubstr("t.ply:2: the format"));
-  EXPECT_THAT(error(header("ascii", "many")), HasSubstr("t.ply:4: 'many' is no number"));
-  EXPECT_THAT(error(header("ascii", "-1")), HasSubstr("t.ply:4: '-1' is no number of elements"));
+  EXPECT_THAT(error(header("ascii", "many")), HasSubstr("t.ply:4: 'many' is not a number"));
+  EXPECT_THAT(error(header("ascii", "-1")), HasSubstr("t.ply:4: '-1' is not a number of elements"));
   EXPECT_THAT(error("ply\nformat ascii 1.0\nend_header\n"), HasSubstr("has no vertices"));
   EXPECT_THAT(error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"),
               HasSubstr("without 'y'"));

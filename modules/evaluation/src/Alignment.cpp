@@ -64,13 +64,13 @@ const char* toString(Alignment alignment) {
 const char* describe(Alignment alignment) {
   switch (alignment) {
     case Alignment::kNone:
-      return "estimate and truth are in one world frame, nothing is moved";
+      return "estimate and truth share a world frame, nothing is moved";
     case Alignment::kFirst:
-      return "the first pose of each component's first robot is laid onto its true one";
+      return "the first pose of each component's first robot is moved onto its true pose";
     case Alignment::kTeam:
       return "one rigid transform for all robots of a component, least squares";
     case Alignment::kSe3:
-      return "one rigid transform for each robot, least squares: errors between robots are hidden";
+      return "one rigid transform per robot, least squares: hides errors between robots";
   }
   throw std::logic_error("describe: no such alignment");
 }

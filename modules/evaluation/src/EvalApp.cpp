@@ -34,7 +34,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--truth", arguments.truth, "Folder with <robot>.tum and map.ply")
       ->type_name("DIR");
   app.add_option("--align", arguments.align,
-                 "How a run is laid onto the truth: none, first, team, se3")
+                 "How a run is aligned with the truth: none, first, team, se3")
       ->capture_default_str()
       ->check(CLI::IsMember({"none", "first", "team", "se3"}));
   app.add_option("--relations", arguments.relations, "True motions between scans")
@@ -53,11 +53,11 @@ void describe(CLI::App& app, Arguments& arguments) {
 /** \throws UsageError for a combination of options that makes no sense. */
 void checkUse(const Arguments& arguments) {
   if (arguments.truth.empty() && arguments.relations.empty())
-    throw UsageError("say what to compare with: --truth DIR, or --relations FILE --stamps FILE");
+    throw UsageError("name what to compare with: --truth DIR, or --relations FILE --stamps FILE");
   if (arguments.relations.empty() != arguments.stamps.empty())
     throw UsageError("--relations and --stamps go together");
   if (arguments.runs.size() > 1 && arguments.out.empty())
-    throw UsageError("say where the comparison of several runs goes: --out DIR");
+    throw UsageError("name the folder for a comparison of several runs: --out DIR");
 }
 
 /** Names of the runs' folders; whole paths where those are not unique. */

@@ -25,7 +25,7 @@ class VoxelBox {
     const double count = size_.cast<double>().prod();
     if (count > kMaxVoxels)
       throw std::runtime_error("the world has " + std::to_string(count / 1e9) +
-                               " thousand million voxels, too many for this measure");
+                               " billion voxels, too many for this measure");
     surface_.resize(static_cast<size_t>(count));
     reached_.resize(static_cast<size_t>(count));
   }

@@ -62,7 +62,7 @@ LedgerLoop readLoop(const Row& row, const LedgerNodes& nodes) {
   loop.from_T_to.translation() << row.number("x"), row.number("y"), row.number("z");
   const Eigen::Quaterniond q(row.number("qw"), row.number("qx"), row.number("qy"),
                              row.number("qz"));
-  if (!(q.norm() > 0.5)) row.fail("qx qy qz qw is no rotation");
+  if (!(q.norm() > 0.5)) row.fail("qx qy qz qw is not a rotation");
   loop.from_T_to.linear() = q.normalized().toRotationMatrix();
   loop.verified = row.text("stage") == "verified";
   loop.kept = row.text("verdict") == "inlier";

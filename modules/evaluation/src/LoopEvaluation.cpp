@@ -33,8 +33,7 @@ std::vector<LedgerNode> nodesOf(const std::string& robot, const std::vector<Ledg
 void addScans(const std::vector<LedgerNode>& nodes, const std::string& path, bool planar,
               TrueNodes& all, std::vector<std::string>& warnings) {
   if (!std::filesystem::exists(path)) {
-    warnings.push_back("there is no '" + path +
-                       "': which pairs of its key nodes are true ones is unknown");
+    warnings.push_back("there is no '" + path + "': which of its pairs are true is unknown");
     return;
   }
   const KeyedScans scans = readKeyedScans(path);

@@ -51,7 +51,7 @@ std::unique_ptr<octomap::OcTree> readTree(const std::string& path) {
   const bool binary = std::filesystem::path(path).extension() == ".bt";
   auto tree = binary ? readBonsai(file) : readLogOdds(file);
   if (!tree || tree->size() == 0)
-    throw std::runtime_error("'" + path + "' is no OctoMap, or an empty or damaged one");
+    throw std::runtime_error("'" + path + "' is not an OctoMap, or is empty or damaged");
   return tree;
 }
 

@@ -101,7 +101,7 @@ RunEvaluation evaluateRun(const std::string& root, const EvaluationInput& input,
   RunEvaluation evaluation;
   evaluation.run = RunFiles::open(root);
   if (evaluation.run.interrupted)
-    evaluation.notes.push_back("the run was interrupted: its results end early");
+    evaluation.notes.push_back("the run was interrupted: its results are incomplete");
   if (input.truth) {
     progress(0.0, "trajectories");
     evaluation.trajectories = evaluateTrajectories(evaluation.run, *input.truth, input.alignment);

@@ -17,13 +17,14 @@ Json readSummary(const RunFolder& folder) {
   if (!std::filesystem::is_directory(folder.root()))
     throw std::runtime_error("there is no run folder '" + folder.root() + "'");
   if (!std::filesystem::exists(folder.summary()))
-    throw std::runtime_error("'" + folder.root() +
-                             "' has no summary.json: it is no run folder of lamp-slam, or the run "
-                             "was killed or has not ended");
+    throw std::runtime_error(
+        "'" + folder.root() +
+        "' has no summary.json: it is not a run folder of lamp-slam, or the run "
+        "was killed or is still going on");
   try {
     return Json::parse(readTextFile(folder.summary()));
   } catch (const Json::exception& error) {
-    throw std::runtime_error("'" + folder.summary() + "' is no JSON: " + error.what());
+    throw std::runtime_error("'" + folder.summary() + "' is not valid JSON: " + error.what());
   }
 }
 
@@ -64,7 +65,7 @@ RunFiles RunFiles::open(const std::string& root) {
     fill(summary, run);
   } catch (const Json::exception& error) {
     throw std::runtime_error("'" + run.folder.summary() +
-                             "' is no summary of a run: " + error.what());
+                             "' is not the summary of a run: " + error.what());
   }
   if (run.robots.empty())
     throw std::runtime_error("'" + root + "' has no trajectories/<robot>.tum to evaluate");

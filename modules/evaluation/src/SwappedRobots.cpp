@@ -50,7 +50,7 @@ void refuseSwappedRobots(const std::vector<NamedTrajectory>& robots, const Truth
         throw std::runtime_error(
             "robots '" + robots[j].robot.name + "' and '" + robots[i].robot.name +
             "' each fit the other one's true trajectory much better than their "
-            "own: were files exchanged?");
+            "own: were the files swapped?");
 }
 
 }  // namespace lamp::evaluation

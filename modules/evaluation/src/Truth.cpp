@@ -34,7 +34,7 @@ TruthFolder::TruthFolder(const std::string& root) : root_(root), robots_(traject
   }
   if (robots_.empty())
     throw std::runtime_error("--truth '" + root +
-                             "' holds no true trajectory: name a folder with <robot>.tum files");
+                             "' contains no true trajectory: name a folder with <robot>.tum files");
 }
 
 bool TruthFolder::has(const std::string& robot) const {

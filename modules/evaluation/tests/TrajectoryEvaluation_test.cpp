@@ -201,7 +201,7 @@ TEST(TrajectoryEvaluation, ExchangedTruthFilesAreRefused) {
   const Path a = windingPath(200), b = straightPath(200, 0.5);
   run.addRobot("a", a, b);
   run.addRobot("b", b, a);
-  EXPECT_THAT(thrownBy([&] { evaluate(run); }), HasSubstr("were files exchanged?"));
+  EXPECT_THAT(thrownBy([&] { evaluate(run); }), HasSubstr("were the files swapped?"));
 }
 
 TEST(TrajectoryEvaluation, PlanarRobotsAreComparedInThePlane) {
@@ -271,9 +271,9 @@ TEST(RunFiles, FoldersThatAreNoRunsAreErrors) {
   EXPECT_THAT(thrownBy([&] { RunFiles::open(root + "/nowhere"); }), HasSubstr("no run folder"));
   EXPECT_THAT(thrownBy([&] { RunFiles::open(root); }), HasSubstr("has no summary.json"));
   writeTextFile(root + "/summary.json", "{\"robots\": [");
-  EXPECT_THAT(thrownBy([&] { RunFiles::open(root); }), HasSubstr("is no JSON"));
+  EXPECT_THAT(thrownBy([&] { RunFiles::open(root); }), HasSubstr("is not valid JSON"));
   writeTextFile(root + "/summary.json", "{}");
-  EXPECT_THAT(thrownBy([&] { RunFiles::open(root); }), HasSubstr("is no summary of a run"));
+  EXPECT_THAT(thrownBy([&] { RunFiles::open(root); }), HasSubstr("is not the summary of a run"));
   writeTextFile(root + "/summary.json", R"({"robots":[{"name":"a"}],"components":[]})");
   EXPECT_THAT(thrownBy([&] { RunFiles::open(root); }), HasSubstr("no trajectories/<robot>.tum"));
 }

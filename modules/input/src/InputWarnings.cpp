@@ -127,7 +127,7 @@ std::vector<std::string> recordingWarnings(const RecordingReport& recording) {
   }
   if (recording.without_stamp > 0) {
     warnings.push_back(file.path + ": " + counted(recording.without_stamp, "observation") +
-                       " dropped that have no stamp");
+                       " dropped for lack of a stamp");
   }
   return warnings;
 }
@@ -136,7 +136,7 @@ std::vector<std::string> robotWarnings(const RobotReport& robot, const RobotOpti
   std::vector<std::string> warnings;
   const std::string who = "robot '" + robot.name + "': ";
   if (robot.labels.empty()) {
-    warnings.push_back(who + "no observation; no rawlog names it, by option or by label");
+    warnings.push_back(who + "no observation: no recording belongs to it, by option or by label");
     return warnings;
   }
   for (const LabelReport& label : robot.labels) warnOfDrops(label, who, warnings);

@@ -89,9 +89,9 @@ std::pair<std::string, std::string> LabelNaming::operator()(const std::string& s
     return {owner_, names_robot ? rest : sensor_label};
   }
   if (named_by_.size() > 1 && !isRobot(part))
-    throw std::runtime_error(path_ + ": given for several robots (" + named_by_[0] + ", " +
+    throw std::runtime_error(path_ + ": assigned to several robots (" + named_by_[0] + ", " +
                              named_by_[1] + "), but the sensor label '" + sensor_label +
-                             "' does not say whose it is; use labels ROBOT/SENSOR");
+                             "' does not say which robot it belongs to; use labels ROBOT/SENSOR");
   const std::string name = part.empty() ? std::filesystem::path(path_).stem().string() : part;
   return {robotNameFromStem(name), rest};
 }

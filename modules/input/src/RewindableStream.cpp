@@ -53,7 +53,7 @@ void RewindableStream::fetch() {
   if (code == Z_BUF_ERROR) {
     error_ = "the compressed file is cut off";
   } else if (code != Z_OK && code != Z_STREAM_END) {
-    error_ = std::string("the file cannot be decompressed any further (") + text + ")";
+    error_ = std::string("the file cannot be decompressed beyond this point (") + text + ")";
   }
 }
 
@@ -81,7 +81,7 @@ double RewindableStream::progress() const {
 
 void RewindableStream::require(size_t count) {
   if (count > kMaxKeptBytes - std::min(cursor_ - mark_, kMaxKeptBytes)) {
-    throw std::runtime_error("object larger than any that a rawlog may hold");
+    throw std::runtime_error("object larger than any a rawlog can hold");
   }
   if (prepare(count) >= count) return;
   ran_out_ = true;

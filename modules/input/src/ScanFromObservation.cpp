@@ -79,7 +79,7 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
   const Pose3 base_T_sensor = poseFromMrpt(sensor_pose);
   const Eigen::Isometry3f transform = base_T_sensor.cast<float>();
   if (!transform.matrix().allFinite())
-    throw std::runtime_error("its sensor pose is no number: the recording is damaged");
+    throw std::runtime_error("its sensor pose is not finite: the recording is damaged");
   const double max_range = std::min(options.max_range_m, returns->max_range_m);
 
   Scan scan;

@@ -50,8 +50,9 @@ std::vector<std::string> OctoMap::exportMap(const ComponentMap& map, const std::
   tree.updateInnerOccupancy();
   tree.prune();
   if (inserter.raysOutOfBounds() > 0)
-    MRPT_LOG_WARN_FMT("%zu rays reach further than voxels of %g m can number and are left out",
-                      inserter.raysOutOfBounds(), options_.resolution_m);
+    MRPT_LOG_WARN_FMT(
+        "%zu rays end beyond the range of an octree with voxels of %g m and are left out",
+        inserter.raysOutOfBounds(), options_.resolution_m);
 
   const std::string log_odds = stem + ".ot", binary = stem + ".bt", offset = offsetText(map);
   writeBinaryFile(log_odds, [&](std::ostream& file) { writeLogOdds(tree, offset, file); });

@@ -73,7 +73,7 @@ void run(const Arguments& arguments) {
     std::cout << config.text();
     return;
   }
-  if (arguments.job.out.empty()) throw UsageError("say where the results go: --out DIR");
+  if (arguments.job.out.empty()) throw UsageError("name the folder for the results: --out DIR");
   std::cout << simulate(config, arguments.job);
 }
 

@@ -12,7 +12,7 @@ namespace lamp {
 /** One registration without a guess. */
 struct PairRegistration {
   RegisteredCloud source, target;
-  bool planar = false;  ///< both are level: only x, y and yaw are sought
+  bool planar = false;  ///< both are level: only x, y and yaw are estimated
   LoopClosureAttempt attempt;
   double prepare_source_s = 0, prepare_target_s = 0;  ///< normals, free space, descriptors
   double align_refine_verify_s = 0;

@@ -29,14 +29,14 @@ void describe(CLI::App& app, Arguments& arguments) {
       "made of them.\n"
       "Example: lamp-register scan1.pcd scan2.pcd --picture pair.png");
   app.set_version_flag("--version", std::string("lamp-register ") + kVersion);
-  app.add_option("source", arguments.source, "Cloud that is moved: PLY or PCD")
+  app.add_option("source", arguments.source, "Cloud to be moved: PLY or PCD")
       ->type_name("SOURCE")
       ->required();
-  app.add_option("target", arguments.target, "Cloud that it is moved onto: PLY or PCD")
+  app.add_option("target", arguments.target, "Cloud to move it onto: PLY or PCD")
       ->type_name("TARGET")
       ->required();
   app.add_option("--config", arguments.config,
-                 "Experiment file (see ini/); without it the defaults, and Teaser as the aligner")
+                 "Experiment file (see ini/); without one, the defaults with Teaser as the aligner")
       ->type_name("CONFIG.ini");
   app.add_option("--set", arguments.overrides, "Overrides one key of the ini")
       ->type_name("SECTION.KEY=VALUE")

@@ -116,7 +116,7 @@ std::string offsetText(const RegisteredCloud& cloud) {
 
 std::string registerReport(const PairRegistration& pair) {
   std::string text = cloudLine("source", pair.source) + cloudLine("target", pair.target);
-  if (pair.planar) text += line("", "both are level: only x, y and yaw are sought");
+  if (pair.planar) text += line("", "both are level: only x, y and yaw are estimated");
   for (const AlignerOutcome& outcome : pair.attempt.alignments) text += alignerLines(outcome);
   if (pair.hasResult()) text += resultLines(pair);
   text += line("time",

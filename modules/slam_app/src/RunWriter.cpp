@@ -177,7 +177,7 @@ std::string describeFrames(const FrameAgreement& frames, const RobotTable& robot
   if (frames.equally_good.empty())
     return a + " and " + b + ": of " + std::to_string(frames.loops) +
            " loop closures between them " + std::to_string(frames.agreeing) +
-           " agree, each with key nodes of its own; " + std::to_string(frames.needed) +
+           " agree, each between different key nodes; " + std::to_string(frames.needed) +
            " are needed.";
   return a + " and " + b + " see places that look alike: these placements of " + b +
          "'s first key node, seen from " + a +
@@ -239,14 +239,15 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
          << inliers.between_robots << " between): " << folder.mapStem(rank) << ".*\n";
   }
   if (const MeasurementCounts counts = countMeasurements(base.graph()); counts.edges > 0)
-    text << "beside lidar and odometry: " << counts.edges << " measurements of gravity, "
+    text << "other sensors: " << counts.edges << " measurements of gravity, "
          << base.graph().landmarks().size() << " landmarks and distances, " << counts.inliers
          << " kept\n";
   if (components.size() > 1)
     text << "No trusted loop closure joins these " << components.size()
          << " components: they stay separate maps.\n";
   if (const double scale = base.lastReport().odometry_scale; scale > 1.0)
-    text << "The loop closures say that odometry is worse than stated: its covariances were taken "
+    text << "The loop closures show that odometry is worse than its covariances state: they were "
+            "scaled up "
          << scale << " times larger.\n";
   for (const FrameAgreement& frames : base.lastReport().frames)
     if (!frames.joined) text << describeFrames(frames, result.robots) << "\n";
@@ -257,7 +258,7 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
     for (const double coordinate : result.world_p_origin) text << " " << formatFixed(coordinate, 0);
     text << " m\n";
   }
-  if (result.interrupted) text << "The run was interrupted: this is the map up to there.\n";
+  if (result.interrupted) text << "The run was interrupted: this is the map up to that point.\n";
   return text.str();
 }
 

@@ -60,7 +60,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       "Example: lamp-slam ini/default.ini robot1.rawlog robot2.rawlog --out run1");
   app.set_version_flag("--version", std::string("lamp-slam ") + kVersion);
   app.add_option("config", arguments.config, "Experiment file (see ini/)")->type_name("CONFIG.ini");
-  app.add_option("rawlogs", arguments.rawlogs, "Recordings, beside those that the ini names")
+  app.add_option("rawlogs", arguments.rawlogs, "Recordings, in addition to those the ini names")
       ->type_name("RAWLOG");
   app.add_option("--out", arguments.out, "Folder for the results; new or empty")->type_name("DIR");
   app.add_option("--set", arguments.overrides, "Overrides one key of the ini")
@@ -75,7 +75,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--seed", arguments.seed, "Overrides run.seed")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
-  app.add_option("--log", arguments.log, "How much to say: DEBUG, INFO, WARN, ERROR")
+  app.add_option("--log", arguments.log, "Log level: DEBUG, INFO, WARN, ERROR")
       ->capture_default_str()
       ->check(CLI::IsMember({"DEBUG", "INFO", "WARN", "ERROR"}));
   app.add_flag("--list-modules", arguments.list_modules, "Lists the stages that an ini can name");
@@ -116,7 +116,7 @@ void run(const Arguments& arguments) {
     std::cout << (arguments.list_modules ? listStages() : config.text());
     return;
   }
-  if (arguments.out.empty()) throw UsageError("say where the results go: --out DIR");
+  if (arguments.out.empty()) throw UsageError("name the folder for the results: --out DIR");
   SlamRun::Job job{arguments.out, arguments.threads, {}};
   if (!arguments.actions.empty()) job.actions = readActions(arguments.actions);
   SlamRun slam(std::move(config), std::move(job), interrupted);

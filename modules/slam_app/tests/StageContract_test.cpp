@@ -107,7 +107,7 @@ TEST_P(AnyStage, DescribesEachOptionOnceWithItsUnit) {
   make()->visit(changer);
   std::set<std::string> keys;
   for (const OptionInfo& info : changer.infos) {
-    EXPECT_TRUE(keys.insert(info.key).second) << info.key << " is there twice";
+    EXPECT_TRUE(keys.insert(info.key).second) << info.key << " appears twice";
     EXPECT_FALSE(info.meaning.empty()) << info.key;
     for (const char c : info.key)
       EXPECT_TRUE(std::islower(c) || std::isdigit(c) || c == '_') << info.key;

@@ -16,7 +16,7 @@ constexpr double kStampTolerance = 1e-6;
 double numberIn(const std::string& cell, const std::string& column, const std::string& where) {
   double number = 0;
   if (parseDouble(cell, number) && std::isfinite(number)) return number;
-  throw std::runtime_error(where + ": " + column + " '" + cell + "' is no finite number");
+  throw std::runtime_error(where + ": " + column + " '" + cell + "' is not a finite number");
 }
 
 void checkRow(const ArrivalTimes::Row& row, const ArrivalTimes::Row* before,
@@ -27,7 +27,7 @@ void checkRow(const ArrivalTimes::Row& row, const ArrivalTimes::Row* before,
   if (row.arrival < row.stamp) fail(row.arrival, " is an arrival before its stamp ", row.stamp);
   if (!before) return;
   if (row.stamp <= before->stamp)
-    fail(row.stamp, " is a stamp that does not grow from the one above, ", before->stamp);
+    fail(row.stamp, " is not later than the stamp above, ", before->stamp);
   if (row.arrival < before->arrival)
     fail(row.arrival, " is an arrival before the one above, ", before->arrival);
 }

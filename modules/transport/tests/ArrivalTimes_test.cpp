@@ -71,10 +71,11 @@ TEST(ArrivalTimes, FaultsAreNamedWithFileAndLine) {
   EXPECT_THAT(faultOf("stamp,arrival\n"), HasSubstr("holds no arrival"));
   EXPECT_THAT(faultOf(good + "12\n"), HasSubstr("csv:3: has 1 cells"));
   EXPECT_THAT(faultOf(good + "12,13,14\n"), HasSubstr("csv:3: has 3 cells"));
-  EXPECT_THAT(faultOf(good + "12,soon\n"), HasSubstr("csv:3: arrival 'soon' is no finite number"));
-  EXPECT_THAT(faultOf(good + "12 s,13\n"), HasSubstr("csv:3: stamp '12 s' is no finite number"));
-  EXPECT_THAT(faultOf(good + "nan,13\n"), HasSubstr("csv:3: stamp 'nan' is no finite number"));
-  EXPECT_THAT(faultOf(good + "12,inf\n"), HasSubstr("csv:3: arrival 'inf' is no finite number"));
+  EXPECT_THAT(faultOf(good + "12,soon\n"),
+              HasSubstr("csv:3: arrival 'soon' is not a finite number"));
+  EXPECT_THAT(faultOf(good + "12 s,13\n"), HasSubstr("csv:3: stamp '12 s' is not a finite number"));
+  EXPECT_THAT(faultOf(good + "nan,13\n"), HasSubstr("csv:3: stamp 'nan' is not a finite number"));
+  EXPECT_THAT(faultOf(good + "12,inf\n"), HasSubstr("csv:3: arrival 'inf' is not a finite number"));
   EXPECT_THAT(faultOf(good + "12,11.5\n"), HasSubstr("csv:3: 11.500000 is an arrival before its "
                                                      "stamp 12.000000"));
   EXPECT_THAT(faultOf(good + "10,12\n"), HasSubstr("csv:3: 10.000000 is a stamp that does not "

@@ -81,7 +81,7 @@ std::string_view plainText(std::string_view text, const std::string& name) {
   constexpr std::string_view kUtf8 = "\xEF\xBB\xBF";
   if (text.find('\0') != std::string_view::npos)
     throw std::runtime_error(name +
-                             ": is no plain text (it has zero bytes); UTF-16 has to be "
+                             ": is not plain text (it has zero bytes); UTF-16 has to be "
                              "saved as UTF-8");
   return text.substr(text.substr(0, kUtf8.size()) == kUtf8 ? kUtf8.size() : 0);
 }
@@ -124,7 +124,7 @@ class LineReader {
       refuse(
           "has no information matrix: " + std::to_string(tag_.planar ? 6 : 21) +
           " more numbers, its upper triangle row by row; how exact an edge is cannot be guessed");
-    refuse("has " + std::to_string(has) + " values, needs " + std::to_string(needs) +
+    refuse("has " + std::to_string(has) + " values, but needs " + std::to_string(needs) +
            (tag_.parameter ? ", or one more id" : ""));
   }
 
@@ -132,14 +132,14 @@ class LineReader {
     uint64_t value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size())
-      refuse("'" + word + "' is no id: a whole number from 0, of up to 64 bits");
+      refuse("'" + word + "' is not an id: a whole number from 0, of up to 64 bits");
     return value;
   }
 
   double number(const std::string& word) const {
     double value = 0;
     if (!parseDouble(word, value))
-      refuse("'" + word + "' is no number" +
+      refuse("'" + word + "' is not a number" +
              (word.find(',') == std::string::npos
                   ? ""
                   : "; write decimal points, and spaces between numbers"));

@@ -85,7 +85,8 @@ class Traveller {
       const auto [from, to] = sequences_.pairs[found->second];
       if (++degree[from] > 2 || ++degree[to] > 2 || chains.joined(from, to))
         refuse(
-            "with the pairs before it, this is no chain; a robot comes to a node from one other, "
+            "together with the pairs before it, this is not a chain; a robot comes to a node from "
+            "one other, "
             "and goes on to one other");
       chains.join(from, to);
     }

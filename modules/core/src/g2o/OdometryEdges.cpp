@@ -19,7 +19,7 @@ constexpr OdometryRule kNamed[] = {OdometryRule::kAuto, OdometryRule::kIds, Odom
 std::string unknown(const std::string& text) {
   std::string names;
   for (const OdometryRule rule : kNamed) names += std::string(toString(rule)) + ", ";
-  return "odometry edges '" + text + "': there is no such file, and it is none of " +
+  return "odometry edges '" + text + "': there is no such file, and it is not one of " +
          names.substr(0, names.size() - 2);
 }
 
@@ -63,7 +63,7 @@ OdometryEdges odometryEdgesFrom(const std::string& text) {
     auto& [from, to] = edges.pairs.emplace_back();
     if (words.size() != 2 || !parseId(words[0], from) || !parseId(words[1], to) || from == to)
       throw std::runtime_error(text + ":" + std::to_string(number) +
-                               ": is no pair of ids, such as '17 18'");
+                               ": is not a pair of ids, such as '17 18'");
   }
   return edges;
 }

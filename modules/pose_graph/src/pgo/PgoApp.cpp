@@ -33,9 +33,9 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", std::string("lamp-pgo ") + kVersion);
   app.add_option("graph", arguments.graph, "SE2 or SE3")->type_name("GRAPH.g2o")->required();
   app.add_option("--config", arguments.config,
-                 "Experiment file of lamp-slam: its outlier_rejection and optimizer take part")
+                 "Experiment file of lamp-slam, of which outlier_rejection and optimizer are used")
       ->type_name("CONFIG.ini");
-  app.add_option("--out", arguments.out, "The optimised graph, without the loops rejected")
+  app.add_option("--out", arguments.out, "The optimised graph, without the rejected loop closures")
       ->type_name("OUT.g2o")
       ->required();
   app.add_option("--odometry-edges", arguments.odometry_edges,
@@ -45,11 +45,12 @@ void describe(CLI::App& app, Arguments& arguments) {
                  "what else chains the nodes if ids hardly do")
       ->type_name("RULE|FILE")
       ->capture_default_str();
-  app.add_option("--add-outliers", arguments.add_outliers,
-                 "Adds false loops until they are this share of all, and counts how many are found")
+  app.add_option(
+         "--add-outliers", arguments.add_outliers,
+         "Adds false loop closures until they make up this share, and counts how many are found")
       ->type_name("SHARE")
       ->check(CLI::Range(0.0, 0.99));
-  app.add_option("--seed", arguments.seed, "Of the false loops")
+  app.add_option("--seed", arguments.seed, "Seed of the false loop closures")
       ->capture_default_str()
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_option("--json", arguments.json,

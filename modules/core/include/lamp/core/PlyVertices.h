@@ -35,7 +35,7 @@ class PlyVertices {
   const Eigen::Vector3d& offset() const;
   /** Calls `take` for each vertex with the named properties' values, in that order.
    * \throws std::runtime_error naming the file, and the line of a text, if it has no such property,
-   * ends early, or a value is no finite number where that is refused. */
+   * ends early, or a value is not a finite number where that is refused. */
   void read(const std::vector<std::string>& properties,
             const std::function<void(const double*)>& take,
             NotFinite not_finite = NotFinite::kRefuse) const;

@@ -97,12 +97,12 @@ struct Component {
  * components. Nodes and edges are kept in the order in which they came. */
 class PoseGraph {
  public:
-  /** \throws std::logic_error if the id is there already. */
+  /** \throws std::logic_error if the id already exists. */
   void addNode(const Node& node);
   /** \throws std::logic_error if an end is missing, or is the other where the type needs two key
    *  nodes; std::invalid_argument if measurement or information is not finite or not PSD. */
   EdgeIndex addEdge(const Edge& edge);
-  /** \throws std::logic_error if the name is there already. */
+  /** \throws std::logic_error if the name already exists. */
   LandmarkIndex addLandmark(const Landmark& landmark);
 
   const std::vector<Node>& nodes() const { return nodes_; }
