@@ -14,7 +14,7 @@ namespace lamp {
 namespace {
 
 /** Of all false loops together, so many may be admitted by chance. */
-constexpr double kExpected = 0.5;
+constexpr double kExpected = 0.05;
 /** More partners tell nothing new. */
 constexpr size_t kMaxPartners = 30;
 

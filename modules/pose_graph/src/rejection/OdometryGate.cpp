@@ -16,10 +16,8 @@ namespace {
 
 constexpr double kNearly = 0.97;
 constexpr size_t kSampled = 400;
-/** Where odometry knows next to nothing, what it contradicts does not tell how much it misses. */
-constexpr double kMostChance = 0.9;
 /** False loops expected where odometry contradicts none (the mean after Jeffreys' prior). */
-constexpr double kUnseen = 0.5;
+constexpr double kUnseen = 0.05;
 /** Smaller scales may be chance, and not to know of them does no harm. */
 constexpr double kLeastMistake = 16.0;
 /** A few false loops that agree must not loosen odometry: of all loops, so many have to ask for it.
@@ -127,15 +125,15 @@ Admission OdometryGate::reject(const PoseGraph& graph, Admission before) {
       std::max(kFewestWitnesses, kLeastWitnesses * static_cast<double>(sampled.size()));
   if (sure && scale.value >= kLeastMistake)
     before.odometry_scale = std::max(before.odometry_scale, scale.value);
-  double wrong = 0;
+  double wrong = 0, power = 0;  // loops contradicted, and how many would be if all were false
   for (const GatedLoop& loop : loops) {
     const double threshold = chiSquareQuantile(options_.inlier_probability, loop.rank);
+    power += 1.0 - volume.chance(loop.covariance(scale.value), threshold);
     if (loop.distance2(scale.value) <= threshold) continue;
     before.admitted[loop.edge] = false;
-    wrong +=
-        1.0 / (1.0 - std::min(kMostChance, volume.chance(loop.covariance(scale.value), threshold)));
+    wrong += 1.0;
   }
-  if (!loops.empty()) before.false_loops = wrong + kUnseen;
+  if (power > 0) before.false_loops = (wrong + kUnseen) * static_cast<double>(loops.size()) / power;
   return before;
 }
 
