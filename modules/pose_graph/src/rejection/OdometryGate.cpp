@@ -16,8 +16,10 @@ namespace {
 
 constexpr double kNearly = 0.97;
 constexpr size_t kSampled = 400;
-/** False loops expected where odometry contradicts none (the mean after Jeffreys' prior). */
-constexpr double kUnseen = 0.05;
+/** The share of false loops is a posterior mean: before odometry has contradicted any loop, this
+ * share is expected, as sure as one loop that it could have contradicted would make it. */
+constexpr double kPriorShare = 0.05;
+constexpr double kPriorWeight = 1.0;
 /** Smaller scales may be chance, and not to know of them does no harm. */
 constexpr double kLeastMistake = 16.0;
 /** A few false loops that agree must not loosen odometry: of all loops, so many have to ask for it.
@@ -133,7 +135,8 @@ Admission OdometryGate::reject(const PoseGraph& graph, Admission before) {
     before.admitted[loop.edge] = false;
     wrong += 1.0;
   }
-  if (power > 0) before.false_loops = (wrong + kUnseen) * static_cast<double>(loops.size()) / power;
+  const double share = (wrong + kPriorShare * kPriorWeight) / (power + kPriorWeight);
+  before.false_loops = share * static_cast<double>(loops.size());
   return before;
 }
 
