@@ -134,7 +134,7 @@ TEST(Files, ReadingNamesWhatIsMissingOrNoFile) {
   EXPECT_THAT(thrownBy([&] { readTextFile(folder + "/none"); }),
               testing::AllOf(HasSubstr(folder + "/none"), HasSubstr("no such file")));
   EXPECT_THAT(thrownBy([&] { readTextFile(folder); }),
-              testing::AllOf(HasSubstr(folder), HasSubstr("no readable file")));
+              testing::AllOf(HasSubstr(folder), HasSubstr("not a readable file")));
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST(G2oFile, FaultsNameLineAndEdge) {
   expectRefused(good + "EDGE_SE2 1 2 1 0 0 -1 0 0 1 0 1\n", {":2", "1 2", "semi-definite"});
   expectRefused(good + "EDGE_SE2 1 2 1 0 0 1 5 0 1 0 1\n", {":2", "1 2", "semi-definite"});
   expectRefused(good + "EDGE_SE2 1 2 1 0 0 1 0 0 1 0\n", {":2", "1 2", "10 values, but needs 11"});
-  expectRefused("EDGE_SE2 0 -1" + kStep, {":1", "'-1' is no id"});
+  expectRefused("EDGE_SE2 0 -1" + kStep, {":1", "'-1' is not an id"});
   expectRefused("EDGE_SE2 0 18446744073709551616" + kStep, {":1", "is not an id"});
   expectRefused(good + "EDGE_SE3:QUAT 1 2" + kStep3, {":2", "mixes"});
   expectRefused("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 0\n", {":1", "quaternion"});
@@ -303,7 +303,7 @@ TEST(G2oOdometry, TheUserSaysWhich) {
   EXPECT_THAT(test::thrownBy([&] {
                 g2oFromText(star, "t", {OdometryRule::kListed, {{0, 1}, {0, 2}, {0, 3}}});
               }),
-              HasSubstr("0 3: with the pairs before it, this is no chain"));
+              HasSubstr("0 3: together with the pairs before it, this is not a chain"));
 }
 
 TEST(G2oFile, FixedNodesAreWrittenBack) {

@@ -108,10 +108,9 @@ TEST_F(StageFactory, InstancesHaveTheirOwnSections) {
 
 TEST_F(StageFactory, UnknownNameListsTheKnownOnes) {
   EXPECT_FALSE(make("UpCuonter"));
-  EXPECT_THAT(
-      faults_.list(),
-      ElementsAre("t.ini:9: there is not a counter 'UpCuonter' (did you mean 'UpCounter'?); "
-                  "known: DownCounter, UpCounter"));
+  EXPECT_THAT(faults_.list(),
+              ElementsAre("t.ini:9: there is no counter 'UpCuonter' (did you mean 'UpCounter'?); "
+                          "known: DownCounter, UpCounter"));
 }
 
 TEST_F(StageFactory, StagesOfAnotherKindAndAbstractOnesAreUnknown) {

@@ -159,7 +159,7 @@ TEST_F(EvalApp, WrongUse) {
   EXPECT_EQ(eval({"--help"}).exit_code, 0);
   EXPECT_THAT(eval({"--version"}).out, HasSubstr("lamp-eval 0."));
   const std::string run = run_.root();
-  EXPECT_THAT(eval({run}).err, HasSubstr("say what to compare with"));
+  EXPECT_THAT(eval({run}).err, HasSubstr("name what to compare with"));
   EXPECT_EQ(eval({run}).exit_code, 2);
   EXPECT_EQ(eval({run, "--truth", run_.truth(), "--align", "sim3"}).exit_code, 2);
   EXPECT_THAT(eval({run, "--relations", "x"}).err, HasSubstr("go together"));
@@ -180,7 +180,7 @@ TEST_F(EvalApp, WhatCannotBeReadOrWrittenIsAnErrorWithItsName) {
   fails({run, "--truth", truth, "--no-pictures", "--out", "/proc/nowhere"}, "/proc/nowhere");
   fails({run, "--truth", truth, "--no-pictures", "--json", "/nowhere/e.json"}, "/nowhere/e.json");
   writeTextFile(truth + "/map.ply", "ply\nformat ascii 1.0\n");
-  fails({run, "--truth", truth}, "map.ply' ends within its header");
+  fails({run, "--truth", truth}, "map.ply:2: the file ends within its header");
   writeTextFile(run_.folder().trajectory("a"), "");
   std::filesystem::remove(truth + "/map.ply");
   fails({run, "--truth", truth}, "a.tum: holds no pose");

@@ -183,7 +183,7 @@ TEST_F(Ledger, MissingTruthAndScansMakePairsUnknown) {
   LoopEvaluation e = evaluate(rows);
   EXPECT_EQ(e.all.kept.unknown_pairs, 1u);
   EXPECT_EQ(e.all.kept.right, 1u);
-  EXPECT_THAT(e.warnings, testing::Contains(HasSubstr("b.rawlog': which pairs")));
+  EXPECT_THAT(e.warnings, testing::Contains(HasSubstr("b.rawlog': which of its pairs")));
   EXPECT_FALSE(e.all.recall(e.all.kept)) << "no true pair is known";
   std::filesystem::remove(run_.truth() + "/b.tum");
   e = evaluate(rows);

@@ -137,7 +137,7 @@ TEST(OctoMapEvaluation, DamagedTreesAreErrors) {
   for (const std::string& content :
        {std::string(), std::string("no octree"), whole.substr(0, whole.size() / 2)}) {
     writeTextFile(path, content);
-    EXPECT_THAT(thrownBy([&] { evaluate(path); }), HasSubstr("map.bt' is no OctoMap"))
+    EXPECT_THAT(thrownBy([&] { evaluate(path); }), HasSubstr("map.bt' is not an OctoMap"))
         << content.size();
   }
 }

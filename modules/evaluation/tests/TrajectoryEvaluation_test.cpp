@@ -280,7 +280,7 @@ TEST(RunFiles, FoldersThatAreNoRunsAreErrors) {
 
 TEST(TruthFolder, MayBeASubfolderAndMustHoldTrajectories) {
   const std::string root = freshFolder();
-  EXPECT_THAT(thrownBy([&] { TruthFolder{root}; }), HasSubstr("holds no true trajectory"));
+  EXPECT_THAT(thrownBy([&] { TruthFolder{root}; }), HasSubstr("contains no true trajectory"));
   std::filesystem::create_directories(root + "/truth");
   writeTextFile(root + "/truth/b.tum", toTum(windingPath(2)));
   EXPECT_EQ(TruthFolder(root).root(), root + "/truth");

@@ -78,9 +78,10 @@ TEST(ArrivalTimes, FaultsAreNamedWithFileAndLine) {
   EXPECT_THAT(faultOf(good + "12,inf\n"), HasSubstr("csv:3: arrival 'inf' is not a finite number"));
   EXPECT_THAT(faultOf(good + "12,11.5\n"), HasSubstr("csv:3: 11.500000 is an arrival before its "
                                                      "stamp 12.000000"));
-  EXPECT_THAT(faultOf(good + "10,12\n"), HasSubstr("csv:3: 10.000000 is a stamp that does not "
-                                                   "grow from the one above, 10.000000"));
-  EXPECT_THAT(faultOf(good + "9,12\n"), HasSubstr("csv:3: 9.000000 is a stamp that does not grow"));
+  EXPECT_THAT(faultOf(good + "10,12\n"),
+              HasSubstr("csv:3: 10.000000 is not later than the stamp above, 10.000000"));
+  EXPECT_THAT(faultOf(good + "9,12\n"),
+              HasSubstr("csv:3: 9.000000 is not later than the stamp above"));
   EXPECT_THAT(faultOf("stamp,arrival\n10,90\n12,80\n"),
               HasSubstr("csv:3: 80.000000 is an arrival before the one above, 90.000000"));
 }
