@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <chrono>
 #include <limits>
+#include <optional>
 
 #include "Experiment.h"
 
@@ -218,6 +220,48 @@ TEST_F(BadInput, OdometryThatIsNoNumber) {
   ASSERT_EQ(end.exit_code, 0) << end.err;
   for (const StampedPose& pose : experiment_.result().trajectory("A"))
     EXPECT_TRUE(pose.pose.matrix().allFinite());
+}
+
+TEST_F(BadInput, OdometryThatBeginsAnew) {
+  using mrpt::obs::CObservationRobotPose;
+  Objects objects = good_;
+  std::optional<mrpt::poses::CPose3D> anew;
+  for (size_t i = objects.size() / 2; i < objects.size(); ++i) {
+    if (!is<CObservationRobotPose>(objects[i])) continue;
+    const auto odometry = copyOf<CObservationRobotPose>(objects[i]);
+    if (!anew) anew = odometry->pose.mean;
+    odometry->pose.mean = odometry->pose.mean - *anew;
+    objects[i] = odometry;
+  }
+  const LampResult end = run(objects), good = run(good_, "good");
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  ASSERT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_THAT(end.err, HasSubstr("odometry begins anew"));
+  EXPECT_EQ(experiment_.result().summary()["robots"][0]["warnings"].size(), 1u);
+  const auto found = experiment_.result().trajectory("A");
+  const auto expected = experiment_.result("good").trajectory("A");
+  ASSERT_EQ(found.size(), expected.size());
+  for (size_t i = 0; i < found.size(); ++i)
+    EXPECT_LT((found[i].pose.translation() - expected[i].pose.translation()).norm(), 0.5) << i;
+}
+
+TEST_F(BadInput, OneStampADayAhead) {
+  for (const bool scan : {true, false}) {
+    Objects objects = good_;
+    size_t at = objects.size() / 3;
+    while (is<CObservationPointCloud>(objects[at]) != scan) ++at;
+    const auto wrong = copyOf<CObservation>(objects[at]);
+    wrong->timestamp += std::chrono::hours(24);
+    objects[at] = wrong;
+    const std::string out = scan ? "scan" : "odometry";
+    const LampResult end = run(objects, out);
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_THAT(end.err, AllOf(HasSubstr("1 observation dropped"), HasSubstr("lies ahead")));
+    const LampResult good = run(good_, "good_" + out);
+    ASSERT_EQ(good.exit_code, 0) << good.err;
+    EXPECT_NEAR(static_cast<double>(experiment_.result(out).trajectory("A").size()),
+                static_cast<double>(experiment_.result("good_" + out).trajectory("A").size()), 1);
+  }
 }
 
 TEST_F(BadInput, StampsRepeatAndGoBackwards) {
