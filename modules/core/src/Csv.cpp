@@ -13,8 +13,12 @@ namespace lamp {
 
 namespace {
 
+constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
+
 std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\r\n") == std::string::npos) return cell;
+  // A mark that is part of the first cell must not be read as the file's.
+  if (cell.find_first_of(",\"\r\n") == std::string::npos && cell.rfind(kByteOrderMark, 0) != 0)
+    return cell;
   std::string text = "\"";
   for (const char c : cell) text += c == '"' ? "\"\"" : std::string(1, c);
   return text + "\"";
@@ -29,8 +33,10 @@ void appendRow(const std::vector<std::string>& cells, std::string& text) {
 class RowReader {
  public:
   RowReader(std::istream& in, const std::string& name) : text_(*in.rdbuf()), name_(name) {
-    constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
-    for (const char* mark = kByteOrderMark; *mark && peek() == byte(*mark); ++mark) take();
+    size_t matched = 0;
+    for (; kByteOrderMark[matched] && peek() == byte(kByteOrderMark[matched]); ++matched) take();
+    if (!kByteOrderMark[matched]) return;
+    for (; matched > 0; --matched) text_.sungetc();
   }
 
   bool atEnd() { return peek() == EOF; }

@@ -72,6 +72,18 @@ class CountingText : public std::streambuf {
   const std::string text_;
 };
 
+TEST(Csv, APartOfAByteOrderMarkIsText) {
+  for (const char* cell : {"\xEF", "\xEF\xBB", "\xEF\xEF\xBB\xBF", "\xEF\xBB\xBB\xBF"})
+    EXPECT_EQ(CsvTable::fromText(std::string(cell) + "\n", "t.csv").columns.at(0), cell);
+}
+
+TEST(Csv, AByteOrderMarkInTheFirstCellIsWrittenAsText) {
+  const CsvTable table{{"\xEF\xBB\xBFid", "x"}, {{"\xEF\xBB\xBF", "1"}}};
+  const CsvTable again = CsvTable::fromText(table.text(), "t.csv");
+  EXPECT_EQ(again.columns, table.columns);
+  EXPECT_EQ(again.rows, table.rows);
+}
+
 TEST(Csv, EachCharacterIsTakenOnceHoweverManyRowsThereAre) {
   CsvTable table{{"a", "b"}, {}};
   for (int i = 0; i < 2000; ++i) table.rows.push_back({std::to_string(i), "two\nlines"});
