@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "TestGraphs.h"
 
 namespace lamp {
@@ -67,6 +69,31 @@ TEST_P(Gate, TellsTheScaleOnlyIfManyLoopsAskForIt) {
   few.loops = 0;
   few.outliers = 3;
   EXPECT_EQ(scaleOf(makeWorld(few)), 1.0) << "a false loop is no witness";
+}
+
+TEST_P(Gate, TellsHowManyLoopsMayBeFalse) {
+  const auto falseLoops = [](const World& world) {
+    return OdometryGate().reject(world.graph, everything(world.graph)).false_loops;
+  };
+  EXPECT_NEAR(falseLoops(makeWorld(options())), 240, 60);
+
+  WorldOptions few = options();
+  few.outliers = 0;
+  EXPECT_LT(falseLoops(makeWorld(few)), 1) << "odometry could have contradicted them";
+  World vague = makeWorld(few);
+  for (Edge& edge : vague.graph.edges())
+    if (edge.type == EdgeType::kOdometry) edge.information *= 1e-8;
+  EXPECT_GT(falseLoops(vague), 1) << "odometry could not";
+
+  few.loops = 1;
+  World lone = makeWorld(few);
+  for (Edge& edge : lone.graph.edges())
+    if (edge.type == EdgeType::kOdometry) edge.information *= 1e-8;
+  EXPECT_LE(falseLoops(lone), 0.05);
+
+  few.loops = 0;
+  EXPECT_EQ(falseLoops(makeWorld(few)), std::numeric_limits<double>::infinity())
+      << "nothing is known of loops that odometry says nothing of";
 }
 
 TEST_P(Gate, UnrelatedRobotsPass) {

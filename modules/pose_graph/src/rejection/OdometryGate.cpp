@@ -135,6 +135,7 @@ Admission OdometryGate::reject(const PoseGraph& graph, Admission before) {
     before.admitted[loop.edge] = false;
     wrong += 1.0;
   }
+  if (loops.empty()) return before;
   const double share = (wrong + kPriorShare * kPriorWeight) / (power + kPriorWeight);
   before.false_loops = share * static_cast<double>(loops.size());
   return before;
