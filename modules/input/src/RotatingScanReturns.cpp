@@ -1,21 +1,26 @@
-#include <mrpt/obs/VelodyneCalibration.h>
-
 #include <cmath>
 #include <stdexcept>
 
 #include "SensorReturns.h"
+#include "VelodyneModel.h"
 
 namespace lamp {
 namespace {
 
 using mrpt::obs::CObservationRotatingScan;
-using mrpt::obs::VelodyneCalibration;
 
-/** Direction of each pixel of the range image. */
+/** Direction and time of each pixel of the range image. */
 struct Beams {
   std::vector<double> elevation;  ///< by row, radians
   double first_azimuth = 0;       ///< radians, counterclockwise
   double azimuth_step = 0;        ///< radians per column
+  double time_step = 0;           ///< seconds per column; 0 where the recording has no times
+  double row_step = 0;            ///< columns that the lidar turns on from row to row
+
+  double azimuth(int row, int col) const {
+    return first_azimuth + azimuth_step * (col + row_step * row);
+  }
+  double time(int row, int col) const { return time_step * (col + row_step * row); }
 };
 
 bool isConvertedVelodyne(const CObservationRotatingScan& scan) {
@@ -26,17 +31,19 @@ bool isConvertedVelodyne(const CObservationRotatingScan& scan) {
  * run clockwise, as in the packets, and `columnCount` counts single returns although a column is
  * one firing of all lasers. */
 Beams convertedVelodyneBeams(const CObservationRotatingScan& scan) {
-  const char* model = scan.lidarModel == "VLP-16" ? "VLP16" : "HDL32";
-  const auto& lasers = VelodyneCalibration::LoadDefaultCalibration(model).laser_corrections;
-  if (lasers.size() != scan.rowCount) {
+  const VelodyneModel model = velodyneModel(scan.lidarModel);
+  if (model.lasers.size() != scan.rowCount) {
     throw std::runtime_error("CObservationRotatingScan of a " + scan.lidarModel + " with " +
                              std::to_string(scan.rowCount) +
                              " rows: not what that lidar has; record it as a point cloud");
   }
   Beams beams;
-  for (const auto& laser : lasers) beams.elevation.push_back(std::asin(laser.sinVertCorrection));
+  for (const VelodyneLaser& laser : model.lasers) beams.elevation.push_back(laser.elevation_rad);
+  const double columns = static_cast<double>(scan.columnCount) / scan.rowCount;
   beams.first_azimuth = -scan.startAzimuth;
-  beams.azimuth_step = -scan.azimuthSpan * scan.rowCount / scan.columnCount;
+  beams.azimuth_step = -scan.azimuthSpan / columns;
+  beams.time_step = scan.sweepDuration / columns;
+  beams.row_step = model.laser_s / model.firing_s;
   return beams;
 }
 
@@ -50,7 +57,10 @@ Beams beamsOf(const CObservationRotatingScan& scan) {
   Beams beams;
   beams.elevation.assign(1, 0.0);
   beams.first_azimuth = scan.startAzimuth;
-  beams.azimuth_step = scan.columnCount > 1 ? scan.azimuthSpan / (scan.columnCount - 1) : 0.0;
+  if (scan.columnCount > 1) {
+    beams.azimuth_step = scan.azimuthSpan / (scan.columnCount - 1);
+    beams.time_step = scan.sweepDuration / (scan.columnCount - 1);
+  }
   return beams;
 }
 
@@ -68,11 +78,12 @@ SensorReturns returnsOf(const CObservationRotatingScan& scan) {
     for (int col = 0; col < scan.rangeImage.cols(); ++col) {
       if (scan.rangeImage(row, col) == 0) continue;
       const double range = scan.rangeImage(row, col) * scan.rangeResolution;
-      const double azimuth = beams.first_azimuth + beams.azimuth_step * col;
+      const double azimuth = beams.azimuth(row, col);
       const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
                                       std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       returns.points.push_back((range * direction).cast<float>());
       if (has_intensity) returns.intensity.push_back(scan.intensityImage(row, col) / 255.0f);
+      if (beams.time_step != 0) returns.time.push_back(static_cast<float>(beams.time(row, col)));
     }
   }
   return returns;

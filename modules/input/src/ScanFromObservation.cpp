@@ -1,5 +1,6 @@
 #include "lamp/input/ScanFromObservation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,6 +18,7 @@ using mrpt::obs::CObservationRotatingScan;
 using mrpt::obs::CObservationVelodyneScan;
 
 constexpr double kLevel = 2.0 * M_PI / 180.0;
+constexpr float kMaxSweepS = 1.0f;
 
 template <class T>
 bool is(const CObservation& observation) {
@@ -38,6 +40,19 @@ std::optional<SensorReturns> returnsOfAny(const CObservation& observation) {
       takeReturns<CObservation3DRangeScan>(observation, returns) ||
       takeReturns<CObservation2DRangeScan>(observation, returns);
   return returns;
+}
+
+/** Times in milliseconds or of another clock would tear a scan apart. */
+void checkTimes(const std::vector<float>& times) {
+  if (times.empty()) return;
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  const bool finite =
+      std::all_of(times.begin(), times.end(), [](float t) { return std::isfinite(t); });
+  if (finite && *last - *first <= kMaxSweepS && std::max(*last, -*first) <= kMaxSweepS) return;
+  throw std::runtime_error("the times of its points reach from " + std::to_string(*first) + " to " +
+                           std::to_string(*last) +
+                           " s after its stamp; a sweep takes no more than 1 s: are they in "
+                           "another unit than seconds, or of another clock?");
 }
 
 }  // namespace
@@ -74,6 +89,7 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
     corrected.aperture = static_cast<float>(options.laser_aperture_deg * M_PI / 180.0);
     returns = returnsOf(corrected);
   }
+  checkTimes(returns->time);
   mrpt::poses::CPose3D sensor_pose;
   observation.getSensorPose(sensor_pose);
   const Pose3 base_T_sensor = poseFromMrpt(sensor_pose);
@@ -86,6 +102,7 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
   scan.sensors.push_back({label, base_T_sensor.translation()});
   scan.points.reserve(returns->points.size());
   const bool has_intensity = !returns->intensity.empty();
+  const bool has_times = !returns->time.empty();
   for (size_t i = 0; i < returns->points.size(); ++i) {
     const Eigen::Vector3f& point = returns->points[i];
     const double range = point.cast<double>().norm();
@@ -95,6 +112,7 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
     if (!in_base.allFinite()) continue;
     scan.points.push_back(in_base);
     if (has_intensity) scan.intensity.push_back(returns->intensity[i]);
+    if (has_times) scan.time.push_back(returns->time[i]);
   }
   scan.sensor.assign(scan.points.size(), 0);
   return scan;

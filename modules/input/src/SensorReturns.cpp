@@ -8,8 +8,6 @@
 namespace lamp {
 namespace {
 
-constexpr float kByteIntensity = 1.0f / 255.0f;
-
 void setPoints(SensorReturns& returns, const std::vector<float>& x, const std::vector<float>& y,
                const std::vector<float>& z) {
   returns.points.reserve(x.size());
@@ -31,25 +29,6 @@ SensorReturns returnsOf(const mrpt::obs::CObservationPointCloud& observation) {
   if (const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&cloud)) {
     const auto& intensity = xyzi->getPointsBufferRef_intensity();
     returns.intensity.assign(intensity.begin(), intensity.end());
-  }
-  return returns;
-}
-
-SensorReturns returnsOf(const mrpt::obs::CObservationVelodyneScan& observation) {
-  // Some recordings hold the points only, and MRPT unpacks the packets in place.
-  auto scan = observation;
-  if (!scan.scan_packets.empty()) {
-    mrpt::obs::CObservationVelodyneScan::TGeneratePointCloudParameters all_returns;
-    all_returns.minDistance = 0;
-    scan.generatePointCloud(all_returns);
-  }
-  const auto& cloud = scan.point_cloud;
-  SensorReturns returns;
-  returns.max_range_m = scan.maxRange;
-  setPoints(returns, cloud.x, cloud.y, cloud.z);
-  if (cloud.intensity.size() == cloud.x.size()) {
-    returns.intensity.reserve(cloud.intensity.size());
-    for (const uint8_t i : cloud.intensity) returns.intensity.push_back(i * kByteIntensity);
   }
   return returns;
 }

@@ -16,10 +16,14 @@ namespace lamp {
 struct SensorReturns {
   std::vector<Eigen::Vector3f> points;
   std::vector<float> intensity;  ///< empty, or as long as `points`
+  std::vector<float> time;       ///< seconds since the observation's stamp; empty where unknown
   double max_range_m = std::numeric_limits<double>::infinity();
 };
 
 SensorReturns returnsOf(const mrpt::obs::CObservationPointCloud& observation);
+/** All returns of all firings, which MRPT's own reader leaves out in part. Packets are timed by
+ * their own clock, the first one by the observation's stamp; points in them by the manual. \throws
+ * std::runtime_error if the model of the lidar is not known. */
 SensorReturns returnsOf(const mrpt::obs::CObservationVelodyneScan& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservationRotatingScan& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservation3DRangeScan& observation);

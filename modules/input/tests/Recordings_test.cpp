@@ -77,24 +77,6 @@ TEST(Recordings, SenaActionPairs) {
   EXPECT_NEAR(contents.last_odometry_stamp, 1137834284.788331, 1e-5);
 }
 
-TEST(Recordings, RotatingScanAgreesWithTheVelodynePacketsItWasMadeFrom) {
-  const std::string rotating = mrptRecording("rot_scan_velodyne.rawlog");
-  const std::string packets = mrptRecording("test_velodyne_VLP16.rawlog");
-  if (rotating.empty() || packets.empty()) GTEST_SKIP() << "MRPT's recordings are not installed";
-  const Scan a = firstScan(rotating), b = firstScan(packets);
-  EXPECT_GT(b.size(), 10000u);
-  ASSERT_EQ(a.size(), b.size());
-  EXPECT_TRUE(a.hasIntensity() && b.hasIntensity());
-  size_t near = 0;
-  for (const Eigen::Vector3f& p : a.points) {
-    float best = std::numeric_limits<float>::max();
-    for (const Eigen::Vector3f& q : b.points) best = std::min(best, (p - q).squaredNorm());
-    // Columns are evenly spaced in the one and interpolated in the other.
-    if (std::sqrt(best) < 0.01f * p.norm() + 0.02f) ++near;
-  }
-  EXPECT_GT(near, a.size() * 95 / 100);
-}
-
 TEST(Recordings, DepthCamera) {
   const std::string path = mrptRecording("tests_rgbd.rawlog");
   if (path.empty()) GTEST_SKIP() << "MRPT's recordings are not installed";

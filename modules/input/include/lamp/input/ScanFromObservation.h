@@ -30,12 +30,13 @@ bool isPlanarLaser(const mrpt::obs::CObservation& observation);
  *
  * Left out are points that are not finite, returns that the sensor marks as invalid, and ranges
  * outside the options' and the sensor's own limits. Intensity is 0 to 1 for lidars that give bytes,
- * else as recorded; empty where there is none.
+ * else as recorded; empty where there is none. Times are seconds since the observation's stamp,
+ * where the recording tells when each point was measured.
  *
  * \return none if the class is no lidar; a scan without points if it saw nothing.
- * \throws std::runtime_error if a cloud that is stored in a file of its own cannot be loaded, if the
- *  sensor pose is not finite, or if a CObservationRotatingScan has several rows but no model from
- *  which their elevation is known. */
+ * \throws std::runtime_error if a cloud that is stored in a file of its own cannot be loaded, if
+ * the sensor pose is not finite, if the lidar's model, and so the elevation of its rays, is not
+ * known, or if the times of its points spread over more than a second. */
 std::optional<Scan> scanFromObservation(const mrpt::obs::CObservation& observation,
                                         const std::string& label, const ScanOptions& options);
 
