@@ -38,7 +38,8 @@ std::optional<SensorReturns> returnsOfAny(const CObservation& observation) {
       takeReturns<CObservationVelodyneScan>(observation, returns) ||
       takeReturns<CObservationRotatingScan>(observation, returns) ||
       takeReturns<CObservation3DRangeScan>(observation, returns) ||
-      takeReturns<CObservation2DRangeScan>(observation, returns);
+      takeReturns<CObservation2DRangeScan>(observation, returns) ||
+      takeReturns<CObservationTimedPoints>(observation, returns);
   return returns;
 }
 
@@ -68,7 +69,7 @@ void ScanOptions::visit(OptionVisitor& v) {
 bool isLidar(const CObservation& o) {
   return is<CObservationPointCloud>(o) || is<CObservationVelodyneScan>(o) ||
          is<CObservationRotatingScan>(o) || is<CObservation3DRangeScan>(o) ||
-         is<CObservation2DRangeScan>(o);
+         is<CObservation2DRangeScan>(o) || is<CObservationTimedPoints>(o);
 }
 
 bool isPlanarLaser(const CObservation& observation) {

@@ -33,6 +33,14 @@ SensorReturns returnsOf(const mrpt::obs::CObservationPointCloud& observation) {
   return returns;
 }
 
+SensorReturns returnsOf(const CObservationTimedPoints& observation) {
+  SensorReturns returns;
+  setPoints(returns, observation.x, observation.y, observation.z);
+  returns.intensity = observation.intensity;
+  returns.time = observation.time;
+  return returns;
+}
+
 SensorReturns returnsOf(const mrpt::obs::CObservation3DRangeScan& observation) {
   observation.load();
   SensorReturns returns;

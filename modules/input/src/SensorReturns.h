@@ -10,6 +10,8 @@
 #include <limits>
 #include <vector>
 
+#include "lamp/observations/CObservationTimedPoints.h"
+
 namespace lamp {
 
 /** Returns of a lidar in its own frame, unfiltered but for what the sensor marks as invalid. */
@@ -27,6 +29,7 @@ SensorReturns returnsOf(const mrpt::obs::CObservationPointCloud& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservationVelodyneScan& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservationRotatingScan& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservation3DRangeScan& observation);
+SensorReturns returnsOf(const CObservationTimedPoints& observation);
 SensorReturns returnsOf(const mrpt::obs::CObservation2DRangeScan& observation);
 
 }  // namespace lamp

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "RecordingTools.h"
+#include "lamp/observations/CObservationTimedPoints.h"
 
 namespace lamp {
 namespace {
@@ -54,6 +55,22 @@ TEST(ScanFromObservation, IntensityStaysWithItsPoint) {
   const auto scan = scanFromObservation(*o, "lidar", {});
   ASSERT_EQ(scan->size(), 1u);
   EXPECT_EQ(scan->intensity, std::vector<float>(1, 0.25f));
+}
+
+TEST(ScanFromObservation, TimedPointsKeepTheirTimes) {
+  CObservationTimedPoints o;
+  o.x = {0, 1, 2};
+  o.y = o.z = {0, 0, 0};
+  o.time = {0.01f, -0.02f, 0.03f};
+  const auto scan = scanFromObservation(o, "lidar", {});
+  ASSERT_TRUE(scan && isLidar(o));
+  EXPECT_EQ(scan->time, (std::vector<float>{-0.02f, 0.03f})) << "without the missing return";
+  EXPECT_FALSE(scan->hasIntensity());
+  EXPECT_FALSE(scanFromObservation(*cloud(1, "lidar", 2), "lidar", {})->hasTimes());
+  for (const float bad : {30.0f, -1.5f, kNan}) {  // milliseconds, a stamp elsewhere, no number
+    o.time[2] = bad;
+    EXPECT_THROW(scanFromObservation(o, "lidar", {}), std::runtime_error) << bad;
+  }
 }
 
 TEST(ScanFromObservation, DropsBadPointsAndRanges) {

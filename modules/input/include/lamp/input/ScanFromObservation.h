@@ -20,7 +20,7 @@ struct ScanOptions {
 };
 
 /** CObservationPointCloud, CObservationVelodyneScan, CObservationRotatingScan,
- * CObservation3DRangeScan, or CObservation2DRangeScan. */
+ * CObservation3DRangeScan, CObservation2DRangeScan, or CObservationTimedPoints. */
 bool isLidar(const mrpt::obs::CObservation& observation);
 
 /** A 2D laser whose plane is level on the robot to within 2 degrees, either side up. */
