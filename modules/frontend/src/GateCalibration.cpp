@@ -27,8 +27,8 @@ constexpr double kMostTiltRad = 5.0 * kDegree, kMostLeanRad = 45.0 * kDegree;
 /** Edges are blurred by the width of beams; a plate of 1.5 times the size has 0.56. */
 constexpr double kMostMisfit = 0.3;
 constexpr double kConfidence = 0.999;
-constexpr double kMostSigma_m = 0.2, kMostSigmaRad = 2.0 * kDegree;
-constexpr int kRefinements = 3;
+constexpr double kMostSigma_m = 0.2, kMostSigmaRad = 1.0 * kDegree;
+constexpr int kRefinements = 5;
 
 /** Which clusters are the plates, in their order. */
 using Assignment = std::vector<size_t>;
@@ -94,7 +94,7 @@ class PlateMatcher {
   /** \param near points of the plates, base frame. \return none if the rays contradict it. */
   std::optional<StartPrior> match(std::vector<Vector3d> near) const {
     Pose3 pose = poseOfPoints(near, plates_);
-    if (leanOf(pose, Vector3d::UnitZ()) > kMostLeanRad) return std::nullopt;
+    if (leanOf(pose, Vector3d::UnitZ()) > kMostLeanRad || isBehind(pose)) return std::nullopt;
     std::optional<PlatePose> result;
     for (int i = 0; i < kRefinements; ++i) {
       const auto seen = middles(near, pose);
@@ -108,6 +108,11 @@ class PlateMatcher {
   }
 
  private:
+  /** Their order tells from where the plates are seen. */
+  bool isBehind(const Pose3& world_T_base) const {
+    return (world_T_base.translation() - plates_[0]).dot(world_R_plate_.col(2)) < 0;
+  }
+
   std::optional<FeltUp> upFor(const Pose3& pose) const {
     return up_ && leanOf(pose, up_->base_up) <= kMostTiltRad ? up_ : std::nullopt;
   }
@@ -170,8 +175,8 @@ GateResult judged(const StartPrior& pose) {
 
 void GateOptions::visit(OptionVisitor& v) {
   v("plates", plates, 9, "m",
-    "positions of the middles of three reflective plates in the world, [x y z x y z x y z]; they "
-    "lie in one plane, upright");
+    "positions of the middles of three reflective plates in the world, [x y z x y z x y z], "
+    "counterclockwise as the robots see them; they lie in one plane, upright");
   v("plate_m", plate_m, "m", "length of a plate's edges", kPositive);
   v("intensity_ratio", intensity_ratio, "",
     "a plate's intensity is at least this many times that of other surfaces as far away", {1});
@@ -189,13 +194,16 @@ std::vector<Vector3d> GateOptions::positions() const {
   return result;
 }
 
+void GateOptions::moveBy(const Vector3d& shift) {
+  for (size_t i = 0; i < plates.size(); ++i) plates[i] += shift[static_cast<Eigen::Index>(i % 3)];
+}
+
 std::optional<std::string> faultOf(const GateOptions& gate) {
   const std::vector<Vector3d> plates = gate.positions();
-  if (plates.size() != kPlates) return "needs the positions of three plates";
+  if (plates.size() != kPlates) return "must say where three plates are";
   for (size_t i = 0; i < kPlates; ++i)
-    if (distance(plates, i) < 3 * gate.plate_m)
-      return "plates must lie apart by three times their size";
-  if (heightOf(plates) < gate.plate_m) return "the three plates lie on a line";
+    if (distance(plates, i) < 3 * gate.plate_m) return "must lie apart by three times their size";
+  if (heightOf(plates) < gate.plate_m) return "lie on a line";
   return std::nullopt;
 }
 
@@ -237,13 +245,12 @@ GateResult GateCalibration::solve() const {
   for (const Assignment& assignment : tried) {
     const auto pose = matcher.match(centroids(clusters, assignment));
     if (pose && found && !isSame(pose->world_T_base, found->world_T_base))
-      return {std::nullopt,
-              "the plates fit in two ways: their triangle is too even, or other "
-              "reflectors form the same one"};
+      return {std::nullopt, "the plates fit in two ways: other reflectors form the same triangle"};
     if (pose) found = pose;
   }
   if (found) return judged(*found);
-  return {std::nullopt, seen + ", but no three of them lie, and look, as the plates do"};
+  return {std::nullopt,
+          seen + ", but no three of them lie, and look, as the plates do from before the gate"};
 }
 
 }  // namespace lamp

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kBinRatio = 1.25;
 constexpr double kUsualShare = 0.9;
-constexpr size_t kFewestInBin = 100;
+/** Of all rays of a lidar: so many that plates are few among them. */
+constexpr double kFewestShare = 0.1;
 constexpr size_t kFewestPoints = 5;
 /** Of the noise of ranges, as a share of a plate's size. */
 constexpr double kMargin = 0.3;
@@ -23,14 +24,14 @@ int binOf(const LidarRay& ray) {
 }
 
 /** What `kUsualShare` of the rays stay below in the bin and as many beside it as give enough. */
-float usualIntensity(const std::map<int, std::vector<float>>& bins, int bin) {
+float usualIntensity(const std::map<int, std::vector<float>>& bins, int bin, size_t fewest) {
   std::vector<float> values;
   const int widest = std::max(bin - bins.begin()->first, bins.rbegin()->first - bin);
   for (int reach = 1; reach <= std::max(1, widest); ++reach) {
     values.clear();
     for (auto it = bins.lower_bound(bin - reach); it != bins.upper_bound(bin + reach); ++it)
       values.insert(values.end(), it->second.begin(), it->second.end());
-    if (values.size() >= kFewestInBin) break;
+    if (values.size() >= fewest) break;
   }
   const auto place =
       static_cast<std::ptrdiff_t>(kUsualShare * static_cast<double>(values.size() - 1));
@@ -74,9 +75,10 @@ bool fitsPlate(const ReflectorCluster& cluster, double size_m) {
 std::vector<bool> shining(const std::vector<LidarRay>& rays, double ratio) {
   std::map<int, std::vector<float>> bins;
   for (const LidarRay& ray : rays) bins[binOf(ray)].push_back(ray.intensity);
+  const auto fewest = static_cast<size_t>(kFewestShare * static_cast<double>(rays.size()));
   std::map<int, float> limits;
   for (const auto& [bin, values] : bins)
-    limits[bin] = static_cast<float>(ratio) * usualIntensity(bins, bin);
+    limits[bin] = static_cast<float>(ratio) * usualIntensity(bins, bin, fewest);
   std::vector<bool> result;
   for (const LidarRay& ray : rays) result.push_back(ray.intensity > limits.at(binOf(ray)));
   return result;

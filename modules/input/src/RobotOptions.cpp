@@ -7,6 +7,11 @@ void RobotOptions::visit(OptionVisitor& v) {
     "recording of this robot, whatever robot its labels name; empty where its observations are "
     "found by the label's part before the first slash");
   v("key", key, "the robot's letter in 64-bit symbols; empty takes the next free one");
+  v("calibration", calibration,
+    "how the start pose is measured: not, or by the plates of [gate], before which the robot "
+    "stands "
+    "at the beginning; if they do not tell, start_pose counts",
+    {"none", "gate"});
   v("start_pose", start_pose, 6, "m, deg",
     "pose of the base in the world at the first key node, [x y z yaw pitch roll]; empty if "
     "unknown");

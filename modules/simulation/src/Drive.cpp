@@ -115,6 +115,7 @@ class Driver {
       floor_ = line[i] + share * (line[i + 1] - line[i]);
       yaw_ = yaw_here + share * turn;
       slope_ = slopeAlong(line, i);
+      if (poses_.empty()) stand();
       push();
       const double spacing = std::max((line[i + 1] - line[i]).norm(), 1e-3);
       const double curvature = std::abs(turn) / spacing;
@@ -146,6 +147,12 @@ class Driver {
       slope_ = slope + (slope_before - slope) * std::abs(wrapped(yaw - yaw_)) / turn;
       push();
     }
+  }
+
+  /** Where it is, before it sets off. */
+  void stand() {
+    const double until = stamp_ + options_.stand_s;
+    while (stamp_ + kStepS < until) push();
   }
 
   void halt() {
@@ -190,6 +197,7 @@ void DriveOptions::visit(OptionVisitor& v) {
   v("sway_deg", sway_deg, "deg", "roll and pitch that they cause", kNotNegative);
   v("halt_every_m", halt_every_m, "m", "the robot halts about this often", kPositive);
   v("halt_s", halt_s, "s", "for about so long; 0 for never", kNotNegative);
+  v("stand_s", stand_s, "s", "time that the robot stands before it sets off", kNotNegative);
 }
 
 std::vector<StampedPose> drive(const std::vector<Leg>& route, const RayCaster& world,

@@ -79,7 +79,7 @@ class Simulation {
         writeKeyedRecording(stem + ".rawlog", robot, scans_[i], mission_, config_);
       writeTextFile(stem + ".arrivals.csv", arrivalsCsv(robot));
     }
-    writeTextFile(job_.out + "/lamp.ini", slamIni(mission_, !job_.raw));
+    writeTextFile(job_.out + "/lamp.ini", slamIni(world_, mission_, !job_.raw));
     writeTextFile(job_.out + "/sim.ini", config_.text());
   }
 

@@ -134,11 +134,15 @@ std::string arrivalsCsv(const MissionRobot& robot) {
   return table.text();
 }
 
-std::string slamIni(const Mission& mission, bool keyed) {
+std::string slamIni(const World& world, const Mission& mission, bool keyed) {
   std::string text =
       "// Made by lamp-sim:  lamp-slam THIS_FILE --out RUN  and then  lamp-eval RUN --truth "
       "truth\n";
   if (keyed) text += "\n[frontend]\nkeyed = true\n";
+  text += "\n[gate]\nplates = [";
+  for (const Eigen::Vector3d& plate : world.plates)
+    for (int i = 0; i < 3; ++i) text += (text.back() == '[' ? "" : " ") + formatFixed(plate[i], 6);
+  text += "]\n";
   for (const MissionRobot& robot : mission.robots) {
     Vector6d start = yawPitchRollFromPose(robot.truth.at(robot.truth.begin()));
     start.tail<3>() *= 180.0 / M_PI;

@@ -170,12 +170,21 @@ TEST_F(TruthFiles, TheWorldIsDescribedInFull) {
 }
 
 TEST_F(TruthFiles, TheExperimentFileNamesTheRobots) {
+  const World& world = SmallMission::shared().world;
   const Mission& mission = SmallMission::shared().mission;
   Faults faults;
-  const Ini ini = Ini::fromText(slamIni(mission, true), "lamp.ini", faults);
+  const Ini ini = Ini::fromText(slamIni(world, mission, true), "lamp.ini", faults);
   EXPECT_TRUE(faults.empty());
   ASSERT_NE(ini.find("frontend"), nullptr);
   EXPECT_EQ(ini.find("frontend")->find("keyed")->value, "true");
+  ASSERT_NE(ini.find("gate"), nullptr);
+  std::istringstream plates(ini.find("gate")->find("plates")->value.substr(1));
+  for (const Eigen::Vector3d& plate : world.plates)
+    for (int axis = 0; axis < 3; ++axis) {
+      double number = 0;
+      plates >> number;
+      EXPECT_NEAR(number, plate[axis], 1e-6);
+    }
   for (const MissionRobot& robot : mission.robots) {
     const Ini::Section* section = ini.find("robot." + robot.name);
     ASSERT_NE(section, nullptr);
@@ -188,7 +197,8 @@ TEST_F(TruthFiles, TheExperimentFileNamesTheRobots) {
     const Pose3 start = robot.truth.at(robot.truth.begin());
     EXPECT_LT(logSE3(start.inverse() * poseFromYawPitchRoll(pose)).norm(), 1e-5);
   }
-  EXPECT_EQ(Ini::fromText(slamIni(mission, false), "lamp.ini", faults).find("frontend"), nullptr);
+  EXPECT_EQ(Ini::fromText(slamIni(world, mission, false), "lamp.ini", faults).find("frontend"),
+            nullptr);
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ FrontEnd& FrontEndTeam::of(RobotId robot) {
     bool first = true;
     for (size_t i = 0; i < robot.value; ++i) first = first && config_.robots[i].start_pose.empty();
     prior = startPrior(config_.robots[robot.value], first);
+    if (config_.robots[robot.value].startsAtGate())
+      gate_starts_.try_emplace(robot, config_.gate, config_.frontend.scan);
   }
   return front_ends_
       .try_emplace(robot, robot, config_.frontend, config_.makeOne<OdometrySource>(),
@@ -23,7 +25,9 @@ FrontEnd& FrontEndTeam::of(RobotId robot) {
       .first->second;
 }
 
-bool FrontEndTeam::send(std::vector<KeyNodePacket> packets) {
+bool FrontEndTeam::send(RobotId robot, std::vector<KeyNodePacket> packets) {
+  const auto gate = gate_starts_.find(robot);
+  if (gate != gate_starts_.end()) packets = gate->second.pass(std::move(packets));
   for (KeyNodePacket& packet : packets)
     if (!sender_.send(std::move(packet))) return false;
   return true;
@@ -33,21 +37,32 @@ bool FrontEndTeam::observe(const InputObservation& observation) {
   // Time moves on for all: a key node must not wait for its robot's next observation, or the base
   // station would get it after later ones of others.
   for (auto& [robot, front_end] : front_ends_)
-    if (robot != observation.robot && !send(front_end.advanceTo(observation.stamp))) return false;
-  return send(of(observation.robot).observe(observation));
+    if (robot != observation.robot && !send(robot, front_end.advanceTo(observation.stamp)))
+      return false;
+  FrontEnd& front_end = of(observation.robot);
+  const auto gate = gate_starts_.find(observation.robot);
+  if (gate != gate_starts_.end()) gate->second.observe(observation);
+  return send(observation.robot, front_end.observe(observation));
 }
 
 void FrontEndTeam::finish() {
   for (auto& [robot, front_end] : front_ends_) {
-    if (!send(front_end.finish())) return;
+    const auto gate = gate_starts_.find(robot);
+    if (gate != gate_starts_.end() && !send(robot, gate->second.finish())) return;
+    if (!send(robot, front_end.finish())) return;
     sender_.send(front_end.end());
   }
 }
 
 std::vector<FrontEndReport> FrontEndTeam::reports() const {
   std::vector<FrontEndReport> result;
-  for (const auto& [robot, front_end] : front_ends_)
+  for (const auto& [robot, front_end] : front_ends_) {
     result.push_back({robot, front_end.counts(), front_end.warnings()});
+    const auto gate = gate_starts_.find(robot);
+    if (gate == gate_starts_.end()) continue;
+    for (const std::string& warning : gate->second.warnings())
+      result.back().warnings.push_back(warning);
+  }
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lamp/frontend/FrontEnd.h"
+#include "lamp/frontend/GateStart.h"
 #include "lamp/slam_app/RunWriter.h"
 #include "lamp/slam_app/SlamConfig.h"
 #include "lamp/transport/Transport.h"
@@ -26,11 +27,12 @@ class FrontEndTeam {
 
  private:
   FrontEnd& of(RobotId robot);
-  bool send(std::vector<KeyNodePacket> packets);
+  bool send(RobotId robot, std::vector<KeyNodePacket> packets);
 
   const SlamConfig& config_;
   MessageSender& sender_;
   std::map<RobotId, FrontEnd> front_ends_;
+  std::map<RobotId, GateStart> gate_starts_;  ///< of robots that start at the gate
 };
 
 }  // namespace lamp

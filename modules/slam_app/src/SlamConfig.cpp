@@ -147,10 +147,12 @@ SlamConfig::SlamConfig(Ini ini, Faults faults) : ini_(std::move(ini)) {
   readOptions(ini_.find("pipeline"), pipeline, faults);
   for (std::string& name : pipeline.initial_aligner) name = currentName(name);
   readOptions(ini_.find("frontend"), frontend, faults);
+  readOptions(ini_.find("gate"), gate, faults);
   readOptions(ini_.find("registration"), registration, faults);
   readOptions(ini_.find("base_station"), base_station, faults);
   readRobots(faults);
   readBeacons(faults);
+  checkGate(faults);
   checkArrivals(faults);
   checkStages(faults);
   checkSections(faults);
@@ -197,6 +199,15 @@ void SlamConfig::readBeacons(Faults& faults) {
   }
 }
 
+void SlamConfig::checkGate(Faults& faults) const {
+  for (const RobotOptions& robot : robots) {
+    if (!robot.startsAtGate()) continue;
+    if (const auto fault = faultOf(gate))
+      faults.add(ini_.find(kRobotPrefix + robot.name)->find("calibration")->where,
+                 "[robot." + robot.name + "] calibration = gate: [gate] plates " + *fault);
+  }
+}
+
 /** In the order of arrival, a robot of which nobody knows when it arrives has no place. */
 void SlamConfig::checkArrivals(Faults& faults) const {
   if (!input.inArrivalOrder()) return;
@@ -227,7 +238,7 @@ std::vector<std::shared_ptr<Stage>> SlamConfig::make(const StageKind& kind) cons
 /** Sections that nothing reads are faults; options of stages that take no part are checked too. */
 void SlamConfig::checkSections(Faults& faults) const {
   static const std::vector<std::string> kSections = {
-      "plugins", "run", "input", "pipeline", "frontend", "registration", "base_station"};
+      "plugins", "run", "input", "pipeline", "frontend", "gate", "registration", "base_station"};
   for (const Ini::Section& section : ini_.sections()) {
     const std::string& name = section.name;
     const bool known = name.rfind(kRobotPrefix, 0) == 0 || name.rfind(kBeaconPrefix, 0) == 0 ||
@@ -268,12 +279,12 @@ BaseStationSetup SlamConfig::makeBaseStationSetup() const {
 
 std::string SlamConfig::text() const {
   SlamConfig copy = *this;  // visit() takes options that it may change
-  std::string text = writeOptions("plugins", copy.plugins) + "\n" + writeOptions("run", copy.run) +
-                     "\n" + writeOptions("input", copy.input) + "\n" +
-                     writeOptions("pipeline", copy.pipeline) + "\n" +
-                     writeOptions("frontend", copy.frontend) + "\n" +
-                     writeOptions("registration", copy.registration) + "\n" +
-                     writeOptions("base_station", copy.base_station);
+  std::string text =
+      writeOptions("plugins", copy.plugins) + "\n" + writeOptions("run", copy.run) + "\n" +
+      writeOptions("input", copy.input) + "\n" + writeOptions("pipeline", copy.pipeline) + "\n" +
+      writeOptions("frontend", copy.frontend) + "\n" + writeOptions("gate", copy.gate) + "\n" +
+      writeOptions("registration", copy.registration) + "\n" +
+      writeOptions("base_station", copy.base_station);
   for (RobotOptions& robot : copy.robots)
     text += "\n" + writeOptions(kRobotPrefix + robot.name, robot);
   for (BeaconOptions& beacon : copy.beacons)
@@ -297,7 +308,8 @@ std::string describeParameters() {
   std::string text = kParametersIntroduction;
   text += table("plugins", PluginOptions{}) + table("run", RunOptions{}) +
           table("input", InputOptions{}) + table("pipeline", PipelineOptions{}) +
-          table("frontend", FrontEndOptions{}) + table("registration", RegistrationOptions{}) +
+          table("frontend", FrontEndOptions{}) + table("gate", GateOptions{}) +
+          table("registration", RegistrationOptions{}) +
           table("base_station", BaseStationOptions{}) + table("robot.NAME", RobotOptions{}) +
           table("beacon.NAME", BeaconOptions{});
   for (const StageKind& kind : stageKinds()) {

@@ -34,6 +34,8 @@ Eigen::Vector3d localOrigin(const SlamConfig& config) {
   for (const RobotOptions& robot : config.robots)
     if (!robot.start_pose.empty()) places.extend(placeOf(robot.start_pose));
   if (places.isEmpty())
+    for (const Eigen::Vector3d& plate : config.gate.positions()) places.extend(plate);
+  if (places.isEmpty())
     for (const BeaconOptions& beacon : config.beacons)
       if (!beacon.position.empty()) places.extend(placeOf(beacon.position));
   return places.isEmpty() ? Eigen::Vector3d::Zero() : wholeKilometres(places.center());
@@ -42,6 +44,7 @@ Eigen::Vector3d localOrigin(const SlamConfig& config) {
 SlamConfig inLocalFrame(SlamConfig config, const Eigen::Vector3d& world_p_origin) {
   for (RobotOptions& robot : config.robots) moveBy(-world_p_origin, robot.start_pose);
   for (BeaconOptions& beacon : config.beacons) moveBy(-world_p_origin, beacon.position);
+  config.gate.moveBy(-world_p_origin);
   return config;
 }
 

@@ -60,6 +60,23 @@ TEST(FrontEndTeam, TheFirstRobotWithAStartPoseTiesTheTeam) {
   EXPECT_NEAR(prior(2)->world_T_base.translation().x(), 2, 1e-12);
 }
 
+TEST(FrontEndTeam, ARobotAtTheGateWaitsForItsPose) {
+  const SlamConfig config = configFrom(
+      "[gate]\nplates = [4 1.3 1.5 4 -1.3 0.9 4 0.3 1.95]\n"
+      "[robot.A]\ncalibration = gate\nstart_pose = [1 0 0 0 0 0]\n");
+  Mailbox mailbox;
+  FrontEndTeam team(config, mailbox);
+  team.observe(wheels(kA, 100));
+  team.observe(cloud(kA, 100));
+  EXPECT_TRUE(mailbox.messages.empty());
+  team.finish();
+  ASSERT_EQ(mailbox.messages.size(), 2u);
+  EXPECT_TRUE(std::get<KeyNodePacket>(mailbox.messages[0]).prior)
+      << "start_pose, as there is no gate";
+  ASSERT_EQ(team.reports().at(0).warnings.size(), 1u);
+  EXPECT_NE(team.reports()[0].warnings[0].find("gate"), std::string::npos);
+}
+
 TEST(FrontEndTeam, ClosesEachRobotsStream) {
   const SlamConfig config = configFrom("");
   Mailbox mailbox;

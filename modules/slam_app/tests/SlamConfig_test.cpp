@@ -259,6 +259,13 @@ TEST(SlamConfig, TheInisOfTheProjectAreRight) {
   EXPECT_GT(files, 0u);
 }
 
+TEST(SlamConfig, AGateNeedsPlatesThatTellAPose) {
+  EXPECT_NO_THROW(configFrom("[gate]\nplates = [0 0 0 1 0 0 2 0 0]\n[robot.A]\n")) << "not used";
+  for (const char* const plates : {"", "plates = [0 0 0 1 0 0 2 0 0]\n"})
+    EXPECT_THROW(configFrom(std::string("[gate]\n") + plates + "[robot.A]\ncalibration = gate\n"),
+                 ConfigError);
+}
+
 TEST(SlamConfig, TheDefaultIniHoldsTheDefaults) {
   EXPECT_THAT(readTextFile(LAMP_SOURCE_DIR "/ini/default.ini"),
               testing::EndsWith("\n\n" + configFrom("").text()));

@@ -34,15 +34,22 @@ TEST(WorldFrame, KnownBeaconsCountWhereNoStartPoseIsKnown) {
             Vector3d(3000, 0, 0));
 }
 
+TEST(WorldFrame, SoDoesTheGate) {
+  const std::string gate = "[gate]\nplates = [7000 1 1 7000 -1 1 7000 0 2]\n";
+  EXPECT_EQ(originFrom(gate), Vector3d(7000, 0, 0));
+}
+
 TEST(WorldFrame, PlacesMoveIntoTheLocalFrame) {
   const SlamConfig world = configFrom(
       "[robot.A]\nstart_pose = [431200.25 5412345.5 312 6 -1 -0.3]\n[robot.B]\n"
-      "[beacon.east]\nid = 1\nposition = [431300 5412000 0]\n[beacon.any]\nid = 2\n");
+      "[beacon.east]\nid = 1\nposition = [431300 5412000 0]\n[beacon.any]\nid = 2\n"
+      "[gate]\nplates = [431200 5412300 310 431200 5412303 311 431200 5412301 312]\n");
   const SlamConfig local = inLocalFrame(world, {431000, 5412000, 0});
   EXPECT_EQ(local.robots[0].start_pose, (std::vector<double>{200.25, 345.5, 312, 6, -1, -0.3}));
   EXPECT_TRUE(local.robots[1].start_pose.empty());
   EXPECT_EQ(local.beacons[0].position, (std::vector<double>{300, 0, 0}));
   EXPECT_TRUE(local.beacons[1].position.empty());
+  EXPECT_EQ(local.gate.plates, (std::vector<double>{200, 300, 310, 200, 303, 311, 200, 301, 312}));
 }
 
 /** One key node a robot; the first has a start pose, the second sees a known beacon and an unknown

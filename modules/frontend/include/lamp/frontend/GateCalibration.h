@@ -21,6 +21,7 @@ struct GateOptions {
 
   void visit(OptionVisitor& v);
   std::vector<Eigen::Vector3d> positions() const;
+  void moveBy(const Eigen::Vector3d& shift);
 };
 
 /** Why no pose can follow from these plates, whatever is seen of them; none if one can. */
@@ -60,7 +61,7 @@ class GateCalibration {
   GateResult solve() const;
 
  private:
-  const GateOptions options_;
+  GateOptions options_;
   std::map<std::string, std::vector<LidarRay>>
       rays_;  ///< by lidar, as each has an intensity of its own
   size_t ray_count_ = 0;

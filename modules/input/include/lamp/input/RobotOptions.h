@@ -13,6 +13,7 @@ struct RobotOptions {
 
   std::string rawlog;
   std::string key;
+  std::string calibration = "none";
   std::vector<double> start_pose;
   double start_sigma_xyz_m = 0;
   double start_sigma_rot_deg = 0;
@@ -22,6 +23,8 @@ struct RobotOptions {
   std::string arrivals;
   int beacon_id = -1;
   std::vector<double> beacon_position;
+
+  bool startsAtGate() const { return calibration == "gate"; }
 
   void visit(OptionVisitor& v);
 };

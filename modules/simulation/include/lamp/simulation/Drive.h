@@ -17,6 +17,7 @@ struct DriveOptions {
   double sway_deg = 0.8;
   double halt_every_m = 150;
   double halt_s = 8;
+  double stand_s = 0;
 
   void visit(OptionVisitor& v);
 };

@@ -27,6 +27,6 @@ std::string truthTum(const MissionRobot& robot);
 std::string arrivalsCsv(const MissionRobot& robot);
 
 /** The experiment file for `lamp-slam`, with paths relative to it. */
-std::string slamIni(const Mission& mission, bool keyed);
+std::string slamIni(const World& world, const Mission& mission, bool keyed);
 
 }  // namespace lamp::simulation

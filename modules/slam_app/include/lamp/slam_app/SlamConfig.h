@@ -8,6 +8,7 @@
 #include "lamp/base_station/BaseStationOptions.h"
 #include "lamp/core/Ini.h"
 #include "lamp/frontend/FrontEnd.h"
+#include "lamp/frontend/GateCalibration.h"
 #include "lamp/input/RobotOptions.h"
 #include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/registration/PreparedScanStore.h"
@@ -65,6 +66,7 @@ class SlamConfig {
   InputOptions input;
   PipelineOptions pipeline;
   FrontEndOptions frontend;
+  GateOptions gate;
   RegistrationOptions registration;
   BaseStationOptions base_station;
   std::vector<RobotOptions> robots;    ///< in the order of the ini
@@ -96,6 +98,7 @@ class SlamConfig {
  private:
   void readRobots(Faults& faults);
   void readBeacons(Faults& faults);
+  void checkGate(Faults& faults) const;
   void checkArrivals(Faults& faults) const;
   void checkStages(Faults& faults) const;
   void checkSections(Faults& faults) const;
