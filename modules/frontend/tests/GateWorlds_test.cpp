@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <sstream>
 
 #include "lamp/frontend/GateCalibration.h"
 #include "lamp/input/ScanFromObservation.h"
@@ -65,6 +66,21 @@ GateCalibration standing(const Site& site, size_t robot, const GateOptions& gate
   return calibration;
 }
 
+/** Directions to the plates from a robot's first lidar, degrees to the left and up. */
+std::string directions(const Site& site, size_t robot) {
+  const Lidar lidar(site.config.lidars.at(site.config.robots[robot].lidars.front()), site.caster);
+  const Pose3 world_T_lidar = site.starts[robot] * lidar.baseTSensor(kBegin);
+  std::ostringstream text;
+  for (const Eigen::Vector3d& plate : site.world.plates) {
+    const Eigen::Vector3d p = world_T_lidar.inverse() * plate;
+    const bool visible =
+        site.caster.visible(world_T_lidar.translation().cast<float>(), plate.cast<float>());
+    text << " (" << std::atan2(p.y(), p.x()) / kDegree << ", "
+         << std::atan2(p.z(), p.head<2>().norm()) / kDegree << (visible ? ")" : ", hidden)");
+  }
+  return text.str();
+}
+
 int seeds() {
   const char* const text = std::getenv("LAMP_GATE_SEEDS");
   return text ? std::atoi(text) : 1;
@@ -78,7 +94,8 @@ TEST_P(GateWorlds, RobotsFindWhereTheyStand) {
     for (size_t robot = 0; robot < site.starts.size(); ++robot) {
       const GateResult result = standing(site, robot, site.gate(), seed).solve();
       if (!result.pose) {
-        ADD_FAILURE() << seed << " " << site.config.robots[robot].name << ": " << result.reason;
+        ADD_FAILURE() << seed << " " << site.config.robots[robot].name << ": " << result.reason
+                      << "; the plates lie at" << directions(site, robot);
         continue;
       }
       const Vector6d error = logSE3(site.starts[robot].inverse() * result.pose->world_T_base);

@@ -1,8 +1,13 @@
 #include "lamp/frontend/SweepGatherer.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cmath>
+
+#include "lamp/input/ScanFromObservation.h"
+#include "lamp/simulation/VelodyneObservation.h"
+#include "lamp/simulation/World.h"
 
 namespace lamp {
 namespace {
@@ -83,6 +88,33 @@ TEST(SweepGatherer, ANoddingLaserHasWhenItTurnsBack) {
     if (gatherer.begins(100 + 0.025 * i, mount, ring(mount, -90, 180, 181))) begins.push_back(i);
   }
   EXPECT_EQ(begins, (std::vector<int>{0, 21, 41, 61, 81}));
+}
+
+/** How many of the observations of a simulated lidar at rest begin a scan. */
+size_t scansOf(const std::string& model, double seconds, SweepGatherer& gatherer) {
+  using namespace simulation;
+  const World world = worldKind("demo").make(100, 0.3, 1);
+  const RayCaster caster(world.mesh);
+  const TrajectoryInterpolator truth({{100, Pose3::Identity()}, {110, Pose3::Identity()}});
+  LidarOptions options;
+  options.model = model;
+  const Lidar lidar(options, caster);
+  size_t scans = 0;
+  for (int i = 0; i < 10 * seconds; ++i)
+    for (const auto& observation :
+         velodyneObservations(lidar.sweep(truth, 100 + 0.1 * i, 1), lidar, "a/b"))
+      scans += gatherer.begins(mrpt::Clock::toDouble(observation->timestamp),
+                               lidar.baseTSensor(mrpt::Clock::toDouble(observation->timestamp)),
+                               *scanFromObservation(*observation, "b", {}));
+  return scans;
+}
+
+TEST(SweepGatherer, SimulatedLidarsMakeTheScansTheyShould) {
+  SweepGatherer spinning, mounted;
+  EXPECT_EQ(scansOf("spinning", 1, spinning), 10u);
+  EXPECT_TRUE(spinning.wholeScans());
+  EXPECT_EQ(scansOf("rotating_mount", 3.5, mounted), 4u) << "half a turn of its mount each second";
+  EXPECT_FALSE(mounted.wholeScans());
 }
 
 TEST(SweepGatherer, NoScanLastsTooLong) {

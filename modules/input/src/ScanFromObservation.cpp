@@ -90,7 +90,6 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
     corrected.aperture = static_cast<float>(options.laser_aperture_deg * M_PI / 180.0);
     returns = returnsOf(corrected);
   }
-  checkTimes(returns->time);
   mrpt::poses::CPose3D sensor_pose;
   observation.getSensorPose(sensor_pose);
   const Pose3 base_T_sensor = poseFromMrpt(sensor_pose);
@@ -115,6 +114,7 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
     if (has_intensity) scan.intensity.push_back(returns->intensity[i]);
     if (has_times) scan.time.push_back(returns->time[i]);
   }
+  checkTimes(scan.time);
   scan.sensor.assign(scan.points.size(), 0);
   return scan;
 }

@@ -11,6 +11,7 @@ namespace {
 using mrpt::obs::CObservationVelodyneScan;
 using Packet = CObservationVelodyneScan::TVelodyneRawPacket;
 using Block = CObservationVelodyneScan::raw_block_t;
+using Return = CObservationVelodyneScan::laser_return_t;
 
 constexpr int kBlocks = CObservationVelodyneScan::BLOCKS_PER_PACKET;
 constexpr int kBlockReturns = CObservationVelodyneScan::SCANS_PER_BLOCK;
@@ -69,21 +70,42 @@ std::optional<std::vector<double>> packetTimes(const std::vector<Packet>& packet
   return times;
 }
 
-/** \param azimuth_rad clockwise from the x axis, as the lidar turns. */
-Eigen::Vector3f pointOf(const VelodyneLaser& laser, double range_m, double azimuth_rad) {
-  const double sine_up = std::sin(laser.elevation_rad), cosine_up = std::cos(laser.elevation_rad);
-  const double forward = range_m * cosine_up - laser.vertical_offset_m * sine_up;
-  const double left = laser.horizontal_offset_m;
-  const double up = range_m * sine_up + laser.vertical_offset_m * cosine_up;
-  const double sine = std::sin(azimuth_rad), cosine = std::cos(azimuth_rad);
-  return Eigen::Vector3d(forward * cosine + left * sine, left * cosine - forward * sine, up)
-      .cast<float>();
-}
+/** A laser's ray, with what is the same for all azimuths. */
+class LaserRay {
+ public:
+  explicit LaserRay(const VelodyneLaser& laser)
+      : laser_(laser),
+        cosine_(static_cast<float>(std::cos(laser.elevation_rad))),
+        sine_(static_cast<float>(std::sin(laser.elevation_rad))),
+        forward_m_(static_cast<float>(-laser.vertical_offset_m * std::sin(laser.elevation_rad))),
+        left_m_(static_cast<float>(laser.horizontal_offset_m)),
+        up_m_(static_cast<float>(laser.vertical_offset_m * std::cos(laser.elevation_rad))) {}
+
+  double range(uint16_t raw) const { return raw * kRangeUnit_m + laser_.distance_offset_m; }
+
+  /** \param azimuth_rad clockwise from the x axis, as the lidar turns. */
+  Eigen::Vector3f pointAt(double range_m, double azimuth_rad) const {
+    const auto range = static_cast<float>(range_m);
+    const auto azimuth = static_cast<float>(azimuth_rad - laser_.azimuth_rad);
+    const float sine = std::sin(azimuth), cosine = std::cos(azimuth);
+    const float forward = range * cosine_ + forward_m_;
+    return {forward * cosine + left_m_ * sine, left_m_ * cosine - forward * sine,
+            range * sine_ + up_m_};
+  }
+
+ private:
+  VelodyneLaser laser_;
+  float cosine_, sine_;              ///< of the elevation
+  float forward_m_, left_m_, up_m_;  ///< where the ray begins
+};
 
 class PacketReader {
  public:
   PacketReader(const CObservationVelodyneScan& scan, SensorReturns& returns)
-      : model_(velodyneModel(scan)), min_range_m_(scan.minRange), returns_(returns) {}
+      : model_(velodyneModel(scan)),
+        rays_(model_.lasers.begin(), model_.lasers.end()),
+        min_range_m_(scan.minRange),
+        returns_(returns) {}
 
   void read(const Packet& packet, std::optional<double> packet_s) {
     const BlockOrder order = orderOf(packet);
@@ -98,9 +120,8 @@ class PacketReader {
       for (int k = 0; k < kBlockReturns; ++k) {
         if (order.other[i] && isSame(block, *order.other[i], k)) continue;
         const double delay_s = delay(k);
-        const VelodyneLaser& laser =
-            model_.lasers[first_laser + static_cast<size_t>(k % model_.lasersPerBlock())];
-        if (add(block, k, laser, azimuth + turn_rate * delay_s) && packet_s)
+        const LaserRay& ray = rays_[first_laser + static_cast<size_t>(k % model_.lasersPerBlock())];
+        if (add(block.laser_returns[k], ray, azimuth + turn_rate * delay_s) && packet_s)
           returns_.time.push_back(static_cast<float>(*packet_s + begin_s + delay_s));
       }
     }
@@ -124,16 +145,16 @@ class PacketReader {
            k % model_.lasersPerBlock() * model_.laser_s;
   }
 
-  bool add(const Block& block, int k, const VelodyneLaser& laser, double azimuth_rad) {
-    const auto& raw = block.laser_returns[k];
-    const double range_m = raw.distance() * kRangeUnit_m + laser.distance_offset_m;
+  bool add(const Return& raw, const LaserRay& ray, double azimuth_rad) {
+    const double range_m = ray.range(raw.distance());
     if (raw.distance() == 0 || range_m < min_range_m_) return false;
-    returns_.points.push_back(pointOf(laser, range_m, azimuth_rad - laser.azimuth_rad));
+    returns_.points.push_back(ray.pointAt(range_m, azimuth_rad));
     returns_.intensity.push_back(raw.intensity() * kByteIntensity);
     return true;
   }
 
   const VelodyneModel model_;
+  const std::vector<LaserRay> rays_;
   const double min_range_m_;
   SensorReturns& returns_;
 };
@@ -162,6 +183,9 @@ SensorReturns returnsOf(const CObservationVelodyneScan& scan) {
   }
   const auto times = packetTimes(scan.scan_packets);
   PacketReader reader(scan, returns);
+  const size_t most = scan.scan_packets.size() * CObservationVelodyneScan::SCANS_PER_PACKET;
+  for (auto* column : {&returns.intensity, &returns.time}) column->reserve(most);
+  returns.points.reserve(most);
   for (size_t i = 0; i < scan.scan_packets.size(); ++i)
     reader.read(scan.scan_packets[i], times ? std::optional<double>((*times)[i]) : std::nullopt);
   return returns;

@@ -61,7 +61,7 @@ TEST(ScanFromObservation, TimedPointsKeepTheirTimes) {
   CObservationTimedPoints o;
   o.x = {0, 1, 2};
   o.y = o.z = {0, 0, 0};
-  o.time = {0.01f, -0.02f, 0.03f};
+  o.time = {kNan, -0.02f, 0.03f};
   const auto scan = scanFromObservation(o, "lidar", {});
   ASSERT_TRUE(scan && isLidar(o));
   EXPECT_EQ(scan->time, (std::vector<float>{-0.02f, 0.03f})) << "without the missing return";
