@@ -19,15 +19,6 @@ void SolverOptions::visit(OptionVisitor& v) {
 
 namespace {
 
-/** Verdicts as the flags say. */
-PoseGraph judged(PoseGraph graph, const std::vector<bool>& admitted) {
-  for (EdgeIndex e = 0; e < admitted.size(); ++e) {
-    Edge& edge = graph.edges()[e];
-    if (edge.mayBeRejected()) edge.verdict = admitted[e] ? Verdict::kInlier : Verdict::kOutlier;
-  }
-  return graph;
-}
-
 std::vector<Pose3> startOf(const std::string& start, const PoseGraph& graph,
                            const std::vector<bool>& admitted) {
   if (start == "odometry") return initialGuess(graph, admitted);

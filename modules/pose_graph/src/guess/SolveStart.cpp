@@ -71,6 +71,14 @@ SolveStart completeStart(const PoseGraph& graph, std::vector<Pose3> world_T_base
   return {std::move(world_T_base), std::move(admitted)};
 }
 
+PoseGraph judged(PoseGraph graph, const std::vector<bool>& admitted) {
+  for (EdgeIndex e = 0; e < admitted.size(); ++e) {
+    Edge& edge = graph.edges()[e];
+    if (edge.mayBeRejected()) edge.verdict = admitted[e] ? Verdict::kInlier : Verdict::kOutlier;
+  }
+  return graph;
+}
+
 void splitSolution(const PoseGraph& graph, const SolveStart& start, std::vector<Pose3> solution,
                    OptimizationResult& result) {
   const size_t nodes = graph.nodes().size();

@@ -20,6 +20,9 @@ struct SolveStart {
 SolveStart completeStart(const PoseGraph& graph, std::vector<Pose3> world_T_base,
                          std::vector<bool> admitted);
 
+/** The graph with its edges that may be rejected judged as the flags say. */
+PoseGraph judged(PoseGraph graph, const std::vector<bool>& admitted);
+
 /** The key nodes' part and the landmarks' part of a solution. */
 void splitSolution(const PoseGraph& graph, const SolveStart& start, std::vector<Pose3> solution,
                    OptimizationResult& result);

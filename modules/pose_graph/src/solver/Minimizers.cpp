@@ -9,6 +9,8 @@ namespace {
 
 /** So small that the first steps are Gauss-Newton steps, unless those fail. */
 constexpr double kFirstDamping = 1e-12;
+/** A smaller damping hardly changes a step that has failed. */
+constexpr double kLeastUseful = 1e-8;
 constexpr double kMaxDamping = 1e16;
 /** A sum of squared Mahalanobis distances that means nothing. */
 constexpr double kNoCost = 1e-15;
@@ -32,7 +34,7 @@ class Damping {
     growth_ = 2.0;
   }
   void rejected() {
-    value_ *= growth_;
+    value_ = std::max(value_ * growth_, kLeastUseful);
     growth_ *= 2.0;
   }
 

@@ -74,7 +74,8 @@ std::optional<double> SparseProblem<Space>::computeStep(double damping) {
   step_ = -gradient;
   cholesky_->solve(step_);
   move();
-  return 0.5 * (damping * equations_->matrix().scaledNorm2(step_) - gradient.dot(step_));
+  predicted_ = 0.5 * (damping * equations_->matrix().scaledNorm2(step_) - gradient.dot(step_));
+  return predicted_;
 }
 
 template <class Space>
@@ -90,6 +91,37 @@ void SparseProblem<Space>::move() {
   moved_ = poses_;
   for (size_t i = 0; i < row_.size(); ++i)
     if (row_[i] >= 0) moved_[i] = Space::plus(poses_[i], step_.segment<kDof>(kDof * row_[i]));
+}
+
+template <class Space>
+double SparseProblem<Space>::costAfterStep() {
+  constexpr double kGood = 0.5;
+  const double cost = equations_->cost(moved_);
+  if (cost_ - cost > kGood * predicted_) return cost;
+  std::vector<Pose> as_chains = movedAsChains();
+  const double other = equations_->cost(as_chains);
+  if (!(other < cost)) return cost;
+  moved_ = std::move(as_chains);
+  return other;
+}
+
+/** Each link gets the error that the linearised problem says. */
+template <class Space>
+std::vector<typename Space::Pose> SparseProblem<Space>::movedAsChains() const {
+  constexpr int kDof = Space::kDof;
+  const Pose origin = Space::fromPose3(Pose3::Identity());
+  std::vector<Pose> moved = moved_;
+  for (const PoseTerm<Space>& link : terms_) {
+    const size_t from = link.from, to = link.to;
+    if (link.type != EdgeType::kOdometry || from >= to || row_[to] < 0) continue;
+    typename Space::Jacobian d_from, d_to;
+    typename Space::Tangent error = link.error(poses_[from], poses_[to], &d_from, &d_to);
+    error += d_to * step_.segment<kDof>(kDof * row_[to]);
+    if (row_[from] >= 0) error += d_from * step_.segment<kDof>(kDof * row_[from]);
+    const Pose measured = Space::plus(moved[from], Space::minus(link.measured, origin));
+    moved[to] = Space::plus(measured, error);
+  }
+  return moved;
 }
 
 template class SparseProblem<Se2>;

@@ -10,7 +10,14 @@
 
 namespace lamp {
 
-/** A pose problem for our own sparse block solver. */
+/** A pose problem for our own sparse block solver.
+ *
+ * A step moves each pose by itself. If the cost falls by less than half of what the linearised
+ * problem promised, the step is also taken as changes of the links of odometry, from the first key
+ * node on: a long piece that turns about a far point stays as long as it is then, instead of being
+ * drawn along the tangent. (Olson, Leonard, Teller, "Fast iterative alignment of pose graphs with
+ * poor initial estimates", ICRA 2006, on such a state space. To first order both are the same.)
+ * The lower one counts. */
 template <class Space>
 class SparseProblem : public PoseProblem, private LeastSquares {
  public:
@@ -35,14 +42,15 @@ class SparseProblem : public PoseProblem, private LeastSquares {
 
   void build();
   bool factorize(double damping);
-  double linearize() override { return equations_->linearize(poses_); }
+  double linearize() override { return cost_ = equations_->linearize(poses_); }
   std::optional<double> computeStep(double damping) override;
-  double costAfterStep() override { return equations_->cost(moved_); }
+  double costAfterStep() override;
   void acceptStep() override {
     poses_ = moved_;
     factorized_here_ = false;
   }
   void move();
+  std::vector<Pose> movedAsChains() const;
 
   const PoseGraph& graph_;
   const Minimizer minimize_;
@@ -54,6 +62,8 @@ class SparseProblem : public PoseProblem, private LeastSquares {
   std::unique_ptr<BlockCholesky<Space::kDof>> cholesky_;
   bool factorized_here_ = false;  ///< cholesky_ is that of the undamped equations at poses_
   Eigen::VectorXd step_;
+  double cost_ = 0;       ///< at poses_
+  double predicted_ = 0;  ///< by how much the step lowers the linearised cost
 };
 
 extern template class SparseProblem<Se2>;
