@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
-#include "TestGraphs.h"
+#include "SyntheticGraphs.h"
+#include "lamp/pose_graph/FalseLoops.h"
 
 namespace lamp {
 namespace {
@@ -69,6 +71,39 @@ TEST_P(Gate, TellsTheScaleOnlyIfManyLoopsAskForIt) {
   few.loops = 0;
   few.outliers = 3;
   EXPECT_EQ(scaleOf(makeWorld(few)), 1.0) << "a false loop is no witness";
+}
+
+TEST(OdometryGate, TellsTheScaleAmongManyFalseLoops) {
+  SyntheticOptions options;
+  options.nodes = 3000;
+  options.loops_a_node = 0.2;
+  World world = makeLongDrive(options);
+  for (Edge& edge : world.graph.edges())
+    if (edge.type == EdgeType::kOdometry) edge.information *= 100;
+  const size_t edges = world.graph.edges().size();
+  for (const double share : {0.0, 0.8, 0.95}) {
+    PoseGraph graph = world.graph;
+    addFalseLoops(graph, share, 5);
+    const Admission gated = OdometryGate().reject(graph, everything(graph));
+    EXPECT_GE(gated.odometry_scale, 16.0) << share;
+    const auto right = std::count(gated.admitted.begin(), gated.admitted.begin() + edges, true);
+    EXPECT_GE(right, 0.98 * static_cast<double>(edges)) << share;
+  }
+}
+
+/** At one place a hundred loops may share one mistake. */
+TEST(OdometryGate, LoopsOfOnePlaceAreOneWitness) {
+  SyntheticOptions options;
+  options.nodes = 3000;
+  options.loops_a_node = 0.05;
+  World world = makeLongDrive(options);
+  Random random(2);
+  for (int i = 0; i < 300; ++i)
+    world.graph.addEdge(
+        makeEdge(EdgeType::kLoopClosure, key_node(0, 100 + i % 15), key_node(0, 1000 + i % 15),
+                 projectToPlane(planarPose(2, 1, 0.3) * expSE3(random.tangent(0.05, 0.005))),
+                 informationOf(0.05, 0.005)));
+  EXPECT_EQ(OdometryGate().reject(world.graph, everything(world.graph)).odometry_scale, 1.0);
 }
 
 TEST_P(Gate, TellsHowManyLoopsMayBeFalse) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rejection/LoopChances.h"
 #include "rejection/LoopCycles.h"
-#include "rejection/PoseVolume.h"
 #include "robust/LoopNeighbourhoods.h"
 
 IMPLEMENTS_MRPT_OBJECT(ChanceAgreement, OutlierRejection, lamp)
@@ -15,43 +15,10 @@ namespace {
 
 /** Of all false loops together, so many may be admitted by chance. */
 constexpr double kExpected = 0.05;
-/** More partners tell nothing new. */
-constexpr size_t kMaxPartners = 30;
 
 struct DoubtfulLoop {
   DirectedLoop loop;
   double by_odometry, allowed;  ///< chances
-};
-
-/** The chance that what is seen of a loop is seen of a false one. */
-class Chance {
- public:
-  Chance(const PoseGraph& graph, const OdometryChains& chains)
-      : chains_(chains), volume_(graph, chains) {}
-
-  double ofOdometry(const DirectedLoop& loop, const RelativePose& odometry) const {
-    return volume_.chance(odometry.covariance + loop.measured.covariance);
-  }
-
-  /** The least k · min(1, λ)^s of the k nearest partners: far ones, of which odometry knows little,
-   * must not hide what the near ones say. \param enough at which the search ends. */
-  double ofPartners(const DirectedLoop& loop, const std::vector<DirectedLoop>& partners,
-                    double enough) const {
-    double expected = 0, least = 1.0;
-    int agreeing = 0;
-    for (size_t k = 0; k < partners.size() && least > enough; ++k) {
-      const Closure closure = cycle(loop, partners[k], chains_);
-      expected += volume_.chance(closure.covariance);
-      agreeing += closure.distance2() <= volume_.usualThreshold();
-      least =
-          std::min(least, static_cast<double>(k + 1) * std::pow(std::min(1.0, expected), agreeing));
-    }
-    return least;
-  }
-
- private:
-  const OdometryChains& chains_;
-  const PoseVolume volume_;
 };
 
 }  // namespace
@@ -69,7 +36,7 @@ Admission ChanceAgreement::reject(const PoseGraph& graph, Admission before) {
   const double of_all = std::min(1.0, kExpected / before.false_loops);
   before.max_chance = of_all > 0 ? of_all : options_.max_chance;
   const OdometryChains chains(graph);
-  const Chance chance(graph, chains);
+  const LoopChances chance(graph, chains);
   LoopNeighbourhoods neighbourhoods(chains, options_.partner_nodes);
   std::vector<DoubtfulLoop> doubtful;
   for (EdgeIndex e = 0; e < graph.edges().size(); ++e) {

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "lamp/core/ChiSquare.h"
+#include "rejection/LoopChances.h"
 #include "rejection/OdometryChains.h"
 #include "rejection/PoseVolume.h"
+#include "rejection/Witnesses.h"
 #include "solver/Information.h"
 
 IMPLEMENTS_MRPT_OBJECT(OdometryGate, OutlierRejection, lamp)
@@ -16,6 +18,7 @@ namespace {
 
 constexpr double kNearly = 0.97;
 constexpr size_t kSampled = 400;
+constexpr size_t kEnoughPlaces = 20;
 /** The share of false loops is a posterior mean: before odometry has contradicted any loop, this
  * share is expected, as sure as one loop that it could have contradicted would make it. */
 constexpr double kPriorShare = 0.05;
@@ -55,12 +58,25 @@ std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const OdometryChains& 
   return loops;
 }
 
-/** Loops at even steps: as many as tell the scale. */
+/** At even steps: as many as tell the scale. */
 std::vector<GatedLoop> sample(const std::vector<GatedLoop>& loops) {
   const size_t step = loops.size() / kSampled + 1;
   std::vector<GatedLoop> sampled;
   for (size_t i = 0; i < loops.size(); i += step) sampled.push_back(loops[i]);
   return sampled;
+}
+
+/** The loops that tell the scale: those that neighbours bear out, of which hardly any is false; all
+ * where such are few. */
+std::vector<GatedLoop> scaleLoops(const PoseGraph& graph, const OdometryChains& chains,
+                                  const std::vector<GatedLoop>& loops) {
+  std::vector<DirectedLoop> ways;
+  for (const GatedLoop& loop : loops)
+    ways.push_back(directed(loop.edge, graph.edges()[loop.edge], graph.planar()));
+  std::vector<GatedLoop> chosen;
+  for (const size_t i : witnesses(ways, chains, LoopChances(graph, chains)))
+    chosen.push_back(loops[i]);
+  return sample(chosen.size() >= kEnoughPlaces ? chosen : loops);
 }
 
 /** How many loops lie as near to odometry as true ones should, and how many false ones would. */
@@ -119,7 +135,7 @@ void OdometryGateOptions::visit(OptionVisitor& v) {
 Admission OdometryGate::reject(const PoseGraph& graph, Admission before) {
   const OdometryChains chains(graph);
   const std::vector<GatedLoop> loops = gatedLoops(graph, chains, before.admitted);
-  const std::vector<GatedLoop> sampled = sample(loops);
+  const std::vector<GatedLoop> sampled = scaleLoops(graph, chains, loops);
   const PoseVolume volume(graph, chains);
   const Scale scale = fittingScale(sampled, options_, volume);
   const bool sure =

@@ -17,12 +17,6 @@ class LoopNeighbourhoods {
   LoopNeighbourhoods(const OdometryChains& chains, int nodes)
       : chains_(chains), nodes_(static_cast<uint32_t>(nodes)) {}
 
-  void add(const DirectedLoop& loop) { cells_[cell(loop)].push_back(loop); }
-
-  /** The `most` nearest neighbours, the nearest first. */
-  std::vector<DirectedLoop> nearest(const DirectedLoop& loop, size_t most) const;
-
- private:
   /** Two chains, and steps of `nodes` along each. */
   using Cell = std::tuple<int, int, int64_t, int64_t>;
 
@@ -31,6 +25,12 @@ class LoopNeighbourhoods {
             loop.to.index / nodes_};
   }
 
+  void add(const DirectedLoop& loop) { cells_[cell(loop)].push_back(loop); }
+
+  /** The `most` nearest neighbours, the nearest first. */
+  std::vector<DirectedLoop> nearest(const DirectedLoop& loop, size_t most) const;
+
+ private:
   const OdometryChains& chains_;
   const uint32_t nodes_;
   std::map<Cell, std::vector<DirectedLoop>> cells_;
