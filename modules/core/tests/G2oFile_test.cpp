@@ -414,9 +414,26 @@ TEST(G2oFile, RepeatedAndEmptyEdgesAreTold) {
   const G2oGraph g2o = g2oFromText(step + step + "EDGE_SE2 0 1 1 0 0.6 100 0 0 100 0 1000\n" +
                                        "EDGE_SE2 0 1 7 0 0 0 0 0 0 0 0\nEDGE_SE2 1 2" + kStep,
                                    "t");
-  EXPECT_EQ(g2o.graph.edges().size(), 4u) << "all but the empty one";
+  EXPECT_EQ(g2o.graph.edges().size(), 3u) << "one measurement is one, however often it is written";
   EXPECT_THAT(g2o.notes, ElementsAre(HasSubstr("1 edge(s) have zero information"),
                                      HasSubstr("1 edge(s) repeat another one")));
+}
+
+/** The last direction is known from the others, but for the fifth digit. */
+TEST(G2oFile, InformationIsMendedIfOnlyRoundingMakesItIndefinite) {
+  const auto edge = [](double last) {
+    const std::string yaw = std::to_string(last);
+    return "EDGE_SE2 0 1 1 0 0 100 0 " + yaw + " 100 0 400\n";
+  };
+  const G2oGraph g2o = g2oFromText(edge(200.002), "t");
+  EXPECT_THAT(g2o.notes, ElementsAre(HasSubstr("1 edge(s) have information")));
+  const Matrix6d information = g2o.graph.edges().at(0).information;
+  EXPECT_NEAR(information(0, 0), 100, 1e-2);
+  EXPECT_NEAR(information(0, 5), 200, 1e-2);
+  EXPECT_NEAR(information(5, 5), 400, 1e-2);
+  EXPECT_NO_THROW(g2oFromText(toG2o(g2o), "what was written"));
+  EXPECT_THAT(g2oFromText(edge(199.998), "t").notes, IsEmpty());
+  expectRefused(edge(200.1), {"semi-definite"});
 }
 
 TEST(G2oFile, NodesWithSeveralOrNoVertices) {

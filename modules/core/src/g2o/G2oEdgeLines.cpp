@@ -35,23 +35,31 @@ bool isIdentity(const G2oLine& line) {
 std::vector<const G2oLine*> telling(const G2oLines& file, std::vector<std::string>& notes) {
   std::vector<const G2oLine*> edges;
   std::map<std::vector<uint64_t>, std::vector<const G2oLine*>> by_ids;
-  size_t empty = 0, repeated = 0;
+  size_t empty = 0, repeated = 0, rounded = 0;
   for (const G2oLine& line : file.lines) {
     if (!isEdge(line)) continue;
+    if (isEmpty(line)) {
+      ++empty;
+      continue;
+    }
     std::vector<const G2oLine*>& others = by_ids[line.ids];
-    const bool is_empty = isEmpty(line);
-    const bool is_repeated = std::any_of(
-        others.begin(), others.end(), [&](const G2oLine* other) { return sameEdge(*other, line); });
-    empty += is_empty;
-    repeated += !is_empty && is_repeated;
+    if (std::any_of(others.begin(), others.end(),
+                    [&](const G2oLine* other) { return sameEdge(*other, line); })) {
+      ++repeated;
+      continue;
+    }
+    rounded += line.rounded;
     others.push_back(&line);
-    if (!is_empty) edges.push_back(&line);
+    edges.push_back(&line);
   }
-  if (empty > 0)
-    notes.push_back(std::to_string(empty) + " edge(s) have zero information and are left out");
-  if (repeated > 0)
-    notes.push_back(std::to_string(repeated) +
-                    " edge(s) repeat another one word for word; each counts");
+  const auto note = [&](size_t count, const char* what) {
+    if (count > 0) notes.push_back(std::to_string(count) + what);
+  };
+  note(empty, " edge(s) have zero information and are left out");
+  note(repeated, " edge(s) repeat another one word for word and are left out");
+  note(rounded,
+       " edge(s) have information that is not positive semi-definite, but by its rounding only; it "
+       "is mended");
   return edges;
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "g2o/RoundedInformation.h"
 #include "lamp/core/Csv.h"
 #include "lamp/core/GraphFiles.h"
 
@@ -149,6 +150,11 @@ class LineReader {
   }
 
   void take(const std::vector<double>& v) {
+    takeNumbers(v);
+    line_.rounded = mendRounding(line_.information);
+  }
+
+  void takeNumbers(const std::vector<double>& v) {
     switch (tag_.kind) {
       case G2oKind::kLandmark:
       case G2oKind::kSighting:

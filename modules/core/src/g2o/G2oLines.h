@@ -37,6 +37,7 @@ struct G2oLine {
   uint64_t parameter = 0;
   Pose3 pose = Pose3::Identity();               ///< positions: its translation
   Matrix6d information = Matrix6d::Identity();  ///< tangent space at the pose
+  bool rounded = false;  ///< the file's information was indefinite, if only by its rounding
 
   bool is(G2oKind kind) const { return tag->kind == kind; }
 };
