@@ -20,11 +20,11 @@
 
 #include "SyntheticGraphs.h"
 #include "lamp/core/ChiSquare.h"
+#include "lamp/core/G2oFile.h"
 #include "lamp/pose_graph/BackEnd.h"
 #include "lamp/pose_graph/ChanceAgreement.h"
 #include "lamp/pose_graph/EdgeResiduals.h"
 #include "lamp/pose_graph/FalseLoops.h"
-#include "lamp/core/G2oFile.h"
 #include "lamp/pose_graph/Gnc.h"
 #include "lamp/pose_graph/OdometryGate.h"
 #include "lamp/pose_graph/PlainOptimizers.h"
@@ -168,6 +168,26 @@ std::vector<std::pair<std::string, Maker>> subjects(unsigned seed) {
     SyntheticOptions of = options(8, 450, 1, seed);
     of.overconfidence = 6;
     return synthetic(makeTunnels(of));
+  });
+  // Odometry that drifts as gyroscopes do, and places that are taken for others.
+  list.emplace_back("tunnels-hard", [=] {
+    SyntheticOptions of = options(8, 450, 1, seed);
+    of.odometry_bias_rad = 0.002;
+    of.mistaken_places = 72;
+    return synthetic(makeTunnels(of));
+  });
+  list.emplace_back("long-drive-hard", [=] {
+    SyntheticOptions of = options(1, 15000, 0.107, seed);
+    of.odometry_bias_rad = 0.0005;
+    of.mistaken_places = 32;
+    return synthetic(makeLongDrive(of));
+  });
+  list.emplace_back("grid-5750-pieces", [=] {
+    SyntheticOptions of = options(1, 5750, 2, seed);
+    of.pieces = 12;
+    of.odometry_m = 0.05;
+    of.odometry_rad = 0.01;
+    return synthetic(makeGrid(of));
   });
   return list;
 }

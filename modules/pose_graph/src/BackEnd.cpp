@@ -1,8 +1,10 @@
 #include "lamp/pose_graph/BackEnd.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "rejection/Readmission.h"
+#include "rejection/RepeatedLoops.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(OutlierRejection, Stage, lamp)
 
@@ -17,6 +19,18 @@ PoseGraph withLooserOdometry(PoseGraph graph, double scale) {
   for (Edge& edge : graph.edges())
     if (edge.type == EdgeType::kOdometry) edge.information /= scale;
   return graph;
+}
+
+/** \param first of which the other is a repetition; what is no loop is never rejected. */
+void judgeAlike(EdgeIndex edge, EdgeIndex first, OptimizationResult& result) {
+  const auto verdictOf = [&](EdgeIndex e) {
+    return std::lower_bound(result.loops.begin(), result.loops.end(), e,
+                            [](const LoopVerdict& v, EdgeIndex at) { return v.edge < at; });
+  };
+  const auto mine = verdictOf(edge), other = verdictOf(first);
+  const bool judged = other != result.loops.end() && other->edge == first;
+  mine->verdict = judged ? other->verdict : Verdict::kInlier;
+  mine->weight = judged ? other->weight : 1.0;
 }
 
 }  // namespace
@@ -41,6 +55,8 @@ OptimizationResult BackEnd::optimize(const PoseGraph& graph, Admission admission
 }
 
 OptimizationResult BackEnd::optimize(const PoseGraph& graph, std::vector<bool> admitted) const {
+  const auto repeated = repeatedLoops(graph, admitted);
+  for (const auto& [edge, first] : repeated) admitted[edge] = false;
   Admission admission(std::move(admitted));
   for (const auto& rejection : rejections) admission = rejection->reject(graph, admission);
   const double scale = admission.odometry_scale;
@@ -48,6 +64,7 @@ OptimizationResult BackEnd::optimize(const PoseGraph& graph, std::vector<bool> a
                                           : optimize(graph, admission);
   result.report.odometry_scale = scale;
   result.report.frames = admission.frames;
+  for (const auto& [edge, first] : repeated) judgeAlike(edge, first, result);
   return result;
 }
 

@@ -68,10 +68,21 @@ World tunnels() {
   return makeTunnels(options);
 }
 
+World brokenGrid() {
+  SyntheticOptions options;
+  options.nodes = 1000;
+  options.loops_a_node = 2;
+  options.pieces = 6;
+  options.odometry_m = 0.05;
+  options.odometry_rad = 0.01;
+  return makeGrid(options);
+}
+
 class HardGraphs : public testing::TestWithParam<Named> {};
 INSTANTIATE_TEST_SUITE_P(All, HardGraphs,
                          testing::Values(Named{"grid", [] { return grid(0); }},
                                          Named{"gridWithGaps", [] { return grid(0.07); }},
+                                         Named{"brokenGrid", brokenGrid},
                                          Named{"longDrive", longDrive}, Named{"tunnels", tunnels}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
@@ -104,6 +115,36 @@ TEST_P(HardGraphs, FalseLoopsAreFoundInFewIterations) {
   }
 }
 
+/** Odometry that drifts more than it says, and places that were taken for others: false loops that
+ * agree, and beside them those that do not. */
+TEST(BackEnd, DriftAndMistakenPlacesAreOutvoted) {
+  SyntheticOptions options;
+  options.loops_a_node = 0.2;
+  options.odometry_bias_rad = 0.001;
+  options.nodes = 3000;
+  options.mistaken_places = 10;
+  SyntheticOptions team = options;
+  team.robots = 4;
+  team.nodes = 200;
+  team.loops_a_node = 1;
+  team.mistaken_places = 15;
+  for (const World& world : {makeLongDrive(options), makeTunnels(team)})
+    for (const double share : {0.0, 0.5}) {
+      PoseGraph graph = world.graph;
+      addFalseLoops(graph, share, 1);
+      Kept loops;
+      const OptimizationResult result = optimize(graph);
+      for (const LoopVerdict& loop : result.loops) {
+        const bool is_true = loop.edge < world.true_edge.size() && world.true_edge[loop.edge];
+        loops.all += is_true;
+        if (loop.verdict == Verdict::kInlier) ++(is_true ? loops.right : loops.wrong);
+      }
+      EXPECT_GE(loops.precision(), 0.99) << share;
+      EXPECT_GE(loops.recall(), 0.99) << share;
+      EXPECT_LE(result.report.iterations, 120) << share;
+    }
+}
+
 /** A square of which only one loop closes the end to the start. */
 PoseGraph oneLap() {
   PoseGraph graph;
@@ -134,6 +175,28 @@ TEST(BackEnd, ALoneLoopClosesALongDriveUnlessManyLoopsAreFalse) {
   ASSERT_EQ(among_false.loops[0].edge, loop);
   for (const LoopVerdict& verdict : among_false.loops)
     EXPECT_EQ(verdict.verdict, Verdict::kOutlier) << verdict.edge;
+}
+
+/** As often as it may be written. */
+TEST(BackEnd, ARepeatedLoopIsOneWitness) {
+  PoseGraph graph = oneLap();
+  for (int i = 0; i < 60; ++i)
+    graph.addEdge(makeEdge(EdgeType::kLoopClosure, key_node(0, 5 * i), key_node(0, 5 * i + 20),
+                           planarPose(-30, 20, 2), informationOf(0.05, 0.01)));
+  const Edge lone = graph.edges()[399];
+  ASSERT_TRUE(lone.isLoopClosure());
+  for (int i = 0; i < 30; ++i) graph.addEdge(lone);
+  for (const LoopVerdict& verdict : optimize(graph).loops)
+    EXPECT_EQ(verdict.verdict, Verdict::kOutlier) << verdict.edge;
+
+  PoseGraph good = oneLap();
+  good.addEdge(lone);
+  Edge odometry = good.edges()[7];
+  odometry.type = EdgeType::kLoopClosure;
+  good.addEdge(odometry);
+  const OptimizationResult once = optimize(oneLap()), result = optimize(good);
+  for (const LoopVerdict& verdict : result.loops) EXPECT_EQ(verdict.verdict, Verdict::kInlier);
+  EXPECT_EQ(meanDistance(result.world_T_base, once.world_T_base), 0.0);
 }
 
 TEST(BackEnd, LoopsThatWaitComeInWhenTheSolutionBearsThemOut) {

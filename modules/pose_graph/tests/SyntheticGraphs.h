@@ -18,10 +18,16 @@ struct SyntheticOptions {
   int nodes = 1000;  ///< of each robot
   double loops_a_node = 1;
   double gap_share = 0;  ///< of the odometry edges, those that are missing
+  int pieces = 1;        ///< of each robot's drive, between gaps of odometry
   double odometry_m = 0.02, odometry_rad = 0.002;
+  /** Errors of the turn that stay the same for hundreds of key nodes, as of a gyroscope. The stated
+   * covariances know nothing of them. */
+  double odometry_bias_rad = 0;
   double loop_m = 0.05, loop_rad = 0.005;
   /** Errors of loops along the direction of travel over the stated ones. */
   double overconfidence = 1;
+  /** Places that were taken for others, and how many loops say so at each: they agree. */
+  int mistaken_places = 0, loops_a_mistake = 10;
 };
 
 /** Builds a World from true poses and the pairs of key nodes that see the same place. */
@@ -30,9 +36,14 @@ class SyntheticWorld {
   using Pair = std::pair<KeyNodeId, KeyNodeId>;
 
   SyntheticWorld(const SyntheticOptions& options, bool planar)
-      : options_(options), planar_(planar), random_(options.seed + 1000) {}
+      : options_(options),
+        planar_(planar),
+        random_(options.seed + 1000),
+        biases_(options.seed + 2000) {}
 
   void addRobot(int robot, const std::vector<Pose3>& truth) {
+    const size_t piece = truth.size() / static_cast<size_t>(options_.pieces) + 1;
+    double bias = biases_.normal(options_.odometry_bias_rad);
     for (size_t i = 0; i < truth.size(); ++i) {
       Node node;
       node.id = key_node(robot, static_cast<int>(i));
@@ -40,10 +51,10 @@ class SyntheticWorld {
       world_.graph.addNode(node);
       world_.truth.push_back(truth[i]);
       if (i == 0) continue;
-      const bool gap = random_.uniform(0, 1) < options_.gap_share;
-      if (!gap)
-        add(EdgeType::kOdometry, key_node(robot, static_cast<int>(i) - 1), node.id,
-            options_.odometry_m, options_.odometry_rad, 1);
+      bias += biases_.normal(options_.odometry_bias_rad * std::sqrt(2 / kBiasNodes)) -
+              bias / kBiasNodes;  // a Gauss-Markov process
+      const bool gap = random_.uniform(0, 1) < options_.gap_share || i % piece == 0;
+      if (!gap) addOdometry(key_node(robot, static_cast<int>(i) - 1), node.id, bias);
     }
   }
 
@@ -54,9 +65,8 @@ class SyntheticWorld {
       std::swap(pairs[i], pairs[i + random_.below(pairs.size() - i)]);
     if (pairs.size() > wanted) pairs.resize(wanted);
     std::sort(pairs.begin(), pairs.end());
-    for (const auto& [a, b] : pairs)
-      add(EdgeType::kLoopClosure, a, b, options_.loop_m, options_.loop_rad,
-          options_.overconfidence);
+    for (const auto& [a, b] : pairs) addLoop(a, b);
+    for (int i = 0; i < options_.mistaken_places; ++i) mistakePlaces();
     const std::vector<Pose3> guess = initialGuess(world_.graph);
     for (size_t i = 0; i < guess.size(); ++i)
       world_.graph.node(world_.graph.nodes()[i].id).world_T_base = guess[i];
@@ -64,20 +74,57 @@ class SyntheticWorld {
   }
 
  private:
-  void add(EdgeType type, KeyNodeId a, KeyNodeId b, double sigma_m, double sigma_rad,
-           double overconfidence) {
-    Vector6d error = random_.tangent(sigma_m, sigma_rad);
-    error[0] *= overconfidence;
-    const Pose3 measured = world_.truth[world_.graph.place(a)].inverse() *
-                           world_.truth[world_.graph.place(b)] * expSE3(error);
+  static constexpr double kBiasNodes = 300;
+
+  Pose3 truth(KeyNodeId id) const { return world_.truth[world_.graph.place(id)]; }
+
+  void addOdometry(KeyNodeId a, KeyNodeId b, double bias_rad) {
+    const double m = options_.odometry_m, rad = options_.odometry_rad;
+    const Pose3 turned = truth(a).inverse() * truth(b) * planarPose(0, 0, bias_rad);
+    add(EdgeType::kOdometry, a, b, turned * expSE3(random_.tangent(m, rad)), m, rad, true);
+  }
+
+  void addLoop(KeyNodeId a, KeyNodeId b) {
+    Vector6d error = random_.tangent(options_.loop_m, options_.loop_rad);
+    error[0] *= options_.overconfidence;
+    add(EdgeType::kLoopClosure, a, b, truth(a).inverse() * truth(b) * expSE3(error),
+        options_.loop_m, options_.loop_rad, true);
+  }
+
+  /** The key nodes from b on are taken for seeing what those from a on see. */
+  void mistakePlaces() {
+    const int count = options_.loops_a_mistake;
+    const KeyNodeId a = anyNode(count), b = anyNode(count);
+    if (a.robot == b.robot && std::abs(static_cast<int>(a.index - b.index)) < 3 * count)
+      return mistakePlaces();
+    const Pose3 mistake = truth(a) * planarPose(0.5, 0.3, 0.1) * truth(b).inverse();
+    for (int i = 0; i < count; ++i) {
+      const KeyNodeId from = key_node(a.robot.value, static_cast<int>(a.index) + i);
+      const KeyNodeId to = key_node(b.robot.value, static_cast<int>(b.index) + i);
+      const Vector6d error = random_.tangent(options_.loop_m, options_.loop_rad);
+      add(EdgeType::kLoopClosure, from, to,
+          truth(from).inverse() * mistake * truth(to) * expSE3(error), options_.loop_m,
+          options_.loop_rad, false);
+    }
+  }
+
+  /** One that has `after` more behind it. */
+  KeyNodeId anyNode(int after) {
+    const auto robot = static_cast<int>(random_.below(options_.robots));
+    return key_node(robot, static_cast<int>(random_.below(options_.nodes - after)));
+  }
+
+  void add(EdgeType type, KeyNodeId a, KeyNodeId b, const Pose3& measured, double sigma_m,
+           double sigma_rad, bool is_true) {
     world_.graph.addEdge(makeEdge(type, a, b, planar_ ? projectToPlane(measured) : measured,
                                   informationOf(sigma_m, sigma_rad)));
-    world_.true_edge.push_back(true);
+    world_.true_edge.push_back(is_true);
   }
 
   const SyntheticOptions options_;
   const bool planar_;
   Random random_;
+  Random biases_;
   World world_;
 };
 

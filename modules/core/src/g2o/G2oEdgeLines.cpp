@@ -43,11 +43,8 @@ std::vector<const G2oLine*> telling(const G2oLines& file, std::vector<std::strin
       continue;
     }
     std::vector<const G2oLine*>& others = by_ids[line.ids];
-    if (std::any_of(others.begin(), others.end(),
-                    [&](const G2oLine* other) { return sameEdge(*other, line); })) {
-      ++repeated;
-      continue;
-    }
+    repeated += std::any_of(others.begin(), others.end(),
+                            [&](const G2oLine* other) { return sameEdge(*other, line); });
     rounded += line.rounded;
     others.push_back(&line);
     edges.push_back(&line);
@@ -56,7 +53,7 @@ std::vector<const G2oLine*> telling(const G2oLines& file, std::vector<std::strin
     if (count > 0) notes.push_back(std::to_string(count) + what);
   };
   note(empty, " edge(s) have zero information and are left out");
-  note(repeated, " edge(s) repeat another one word for word and are left out");
+  note(repeated, " edge(s) repeat another one word for word; loop closures count once");
   note(rounded,
        " edge(s) have information that is not positive semi-definite, but by its rounding only; it "
        "is mended");

@@ -28,10 +28,14 @@ class LoopChances {
                     double enough) const {
     double expected = 0, least = 1.0;
     int agreeing = 0;
+    std::vector<Matrix6d> between;  // of nearer partners that do not agree, as most do not
     for (size_t k = 0; k < partners.size() && least > enough; ++k) {
       const Closure closure = cycle(loop, partners[k], chains_);
-      expected += volume_.chance(closure.covariance);
-      agreeing += closure.distance2() <= volume_.usualThreshold();
+      between.push_back(closure.covariance);
+      if (closure.distance2() > volume_.usualThreshold()) continue;
+      ++agreeing;
+      for (const Matrix6d& covariance : between) expected += volume_.chance(covariance);
+      between.clear();
       least =
           std::min(least, static_cast<double>(k + 1) * std::pow(std::min(1.0, expected), agreeing));
     }

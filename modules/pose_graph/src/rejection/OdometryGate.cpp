@@ -149,6 +149,7 @@ Admission OdometryGate::reject(const PoseGraph& graph, Admission before) {
     power += 1.0 - volume.chance(loop.covariance(scale.value), threshold);
     if (loop.distance2(scale.value) <= threshold) continue;
     before.admitted[loop.edge] = false;
+    before.waiting[loop.edge] = scale.value > 1.0;  // odometry that errs is no sure judge
     wrong += 1.0;
   }
   if (loops.empty()) return before;

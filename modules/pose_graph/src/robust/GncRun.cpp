@@ -1,6 +1,7 @@
 #include "robust/GncRun.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "lamp/pose_graph/InitialGuess.h"
 #include "robust/GemanMcClure.h"
@@ -69,6 +70,7 @@ GncRun::GncRun(const PoseGraph& graph, const std::vector<bool>& admitted, const 
 }
 
 OptimizationResult GncRun::run() {
+  const std::vector<Pose3> by_odometry = start_.poses;
   if (!problem_.loops().empty()) {
     solveFromGuess(first_);
     if (!continued_ && !problem_.solved() && problem_.fitsPoorly()) tryChordalGuess();
@@ -76,7 +78,7 @@ OptimizationResult GncRun::run() {
   if (largest(problem_.residuals2()) > 1.0) {
     const std::vector<Pose3> with_all = problem_.poses();
     if (!trim()) {
-      problem_.setPoses(options_.gnc_bias_odom ? start_.poses : with_all);
+      problem_.setPoses(options_.gnc_bias_odom ? by_odometry : with_all);
       graduate();
     }
   }
@@ -91,32 +93,37 @@ OptimizationResult GncRun::run() {
   return result;
 }
 
-/** Odometry may lead into a wrong minimum, without any false loop. If all loops agree with the
- * solution from a chordal initialisation, which needs no good odometry, that is the better start;
- * with false loops among them they do not. */
+/** Odometry may lead into a wrong minimum. A chordal initialisation needs no good odometry, but
+ * loops that do not mislead it: it becomes the guess if its solution has the lower truncated cost.
+ */
 void GncRun::tryChordalGuess() {
+  const double cost = problem_.truncatedCost();
   const std::vector<Pose3> poses = problem_.poses();
   const std::vector<Pose3> chordal = chordalGuess(judged(graph_, start_.admitted));
   std::vector<Pose3> guess = completeStart(graph_, chordal, start_.admitted).poses;
   problem_.setPoses(guess);
   solve(first_);
-  if (largest(problem_.residuals2()) <= 1.0)
+  if (problem_.truncatedCost() < cost)
     start_.poses = std::move(guess);
   else
     problem_.setPoses(poses);
 }
 
 /** Takes the worst loops out until the others agree. Each solve starts anew: out of the shape
- * that false loops gave it, the graph finds its way back slowly.
+ * that false loops gave it, the graph finds its way back slowly. Ends where that does not help.
  * \return whether so few had to go that no other set of loops can be as large. */
 bool GncRun::trim() {
   stopping_ = "all but a few loops agree";
   const auto kept = [](double residual2) {
     return [=](double r2) { return r2 <= std::max(1.0, residual2 / kTrimmedFactor) ? 1.0 : 0.0; };
   };
-  for (int round = 0; round < kMaxTrims; ++round) {
+  const size_t loops = problem_.loops().size();
+  double before = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMaxTrims && 2 * problem_.disagreeing() <= loops; ++round) {
     const double worst = largest(problem_.keptResiduals2());
     if (worst <= 1.0) return true;
+    if (worst >= before) break;
+    before = worst;
     problem_.weigh(kept(worst), true);
     if (trimmedShare() > kMaxTrimmed) break;
     solveFromGuess(inner_);
@@ -136,16 +143,17 @@ double GncRun::trimmedShare() const {
   return out / all;
 }
 
-/** Each round in which loops come or go starts anew from the guess: at the last solution, bent by
- * loops that have gone since, true ones get lost. */
+/** Rounds go on from the last solution. Where that fits poorly, which true loops with their weights
+ * would not, it is a wrong minimum, perhaps, and the guess is tried, too. */
 void GncRun::graduate() {
+  constexpr int kSureRounds = 2;
   stopping_ = "max_rounds reached";
   graduation_->start(std::max(largest(problem_.residuals2()), kLeastStart));
-  std::vector<bool> before;
+  int sure = 0;
   for (int round = 1; round < options_.max_rounds; ++round) {
     const bool same =
         problem_.weigh([&](double residual2) { return graduation_->weight(residual2); }, true);
-    if (same && graduation_->exactFor(problem_.residuals2())) {
+    if ((same && graduation_->exactFor(problem_.residuals2())) || sure >= kSureRounds) {
       stopping_ = "no loop left in doubt";
       return;
     }
@@ -153,14 +161,19 @@ void GncRun::graduate() {
       stopping_ = "few loops left in doubt";
       return;
     }
-    std::vector<bool> support = problem_.support();
-    if (support == before)
-      solve(inner_);
-    else
-      solveFromGuess(inner_);
-    before = std::move(support);
+    solveFromBothStarts();
+    sure = problem_.inconsistent() == 0 ? sure + 1 : 0;
     graduation_->sharpen(options_.mu_step);
   }
+}
+
+void GncRun::solveFromBothStarts() {
+  solve(inner_);
+  if (!problem_.fitsPoorly()) return;
+  const double cost = problem_.cost();
+  const std::vector<Pose3> poses = problem_.poses();
+  solveFromGuess(inner_);
+  if (!(problem_.cost() < cost)) problem_.setPoses(poses);
 }
 
 /** Solves and verdicts at the threshold in turn, of which neither can raise the truncated cost;

@@ -28,6 +28,7 @@ class GncRun {
   bool admitByTakingIn();
   double trimmedShare() const;
   void solveFromGuess(const SolverOptions& options);
+  void solveFromBothStarts();
   void solve(const SolverOptions& options) { problem_.solve(options, full_.function_tolerance); }
 
   const PoseGraph& graph_;

@@ -60,10 +60,16 @@ bool WeighedProblem::weigh(const std::function<double(double)>& weight_of, bool 
   return same;
 }
 
-std::vector<bool> WeighedProblem::support() const {
-  std::vector<bool> support;
-  for (const WeighedLoop& loop : loops_) support.push_back(loop.weight > 0);
-  return support;
+size_t WeighedProblem::inconsistent() const {
+  return static_cast<size_t>(std::count_if(
+      loops_.begin(), loops_.end(),
+      [&](const WeighedLoop& loop) { return (loop.weight > 0) != (residual2(loop) <= 1.0); }));
+}
+
+size_t WeighedProblem::disagreeing() const {
+  return static_cast<size_t>(
+      std::count_if(loops_.begin(), loops_.end(),
+                    [&](const WeighedLoop& loop) { return residual2(loop) > 1.0; }));
 }
 
 void WeighedProblem::solve(const SolverOptions& options, double full) {

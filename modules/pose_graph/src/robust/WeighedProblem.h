@@ -42,8 +42,8 @@ class WeighedProblem {
       if (loop.graduated && which(loop)) chosen.push_back(&loop);
     return chosen;
   }
-  /** Which loops have a weight. */
-  std::vector<bool> support() const;
+  /** How many loops take part but disagree with the poses, or the reverse. */
+  size_t inconsistent() const;
 
   void setPoses(const std::vector<Pose3>& poses) { problem_->setPoses(poses); }
   std::vector<Pose3> poses() const { return problem_->poses(); }
@@ -51,10 +51,13 @@ class WeighedProblem {
   void solve(const SolverOptions& options, double full);
   /** The last solve went to the end, with the weights as they are. */
   bool solved() const { return solved_; }
+  /** Weighted, after the last solve. */
+  double cost() const { return last_.final_cost; }
 
   double residual2(const WeighedLoop& loop) const {
     return problem_->chi2(loop.edge) / loop.threshold;
   }
+  size_t disagreeing() const;
   /** Of the graduated loops. */
   std::vector<double> residuals2() const;
   /** Of the graduated loops that take part. */

@@ -46,8 +46,8 @@ struct G2oGraph {
  * at all, from the first node at the origin. Ids have up to 64 bits. Those with a letter in the top
  * byte are GTSAM's symbols: each letter is one robot; all others are one robot's. Indices of key
  * nodes count the robot's nodes in the order in which odometry chains them, which follows from the
- * file (OdometryRule). Edges without any information, and those that repeat another one word for
- * word, are left out; information that is indefinite only by rounding is mended; the notes say so.
+ * file (OdometryRule). Edges without any information are left out; information that is indefinite only by
+ * rounding is mended; the notes say so, and how many edges repeat others word for word.
  * \param name of the text in messages.
  * \throws std::runtime_error naming the line, and the edge where there is one: for numbers that are
  * none, that are not finite, or too few or many; for an edge from a node to itself; for an
