@@ -1,5 +1,8 @@
 #include "solver/SelectedInverse.h"
 
+#include <algorithm>
+#include <array>
+
 #include "solver/TileProducts.h"
 
 namespace lamp {
@@ -29,9 +32,13 @@ class Inversion {
       width_ = symbolic_.panelWidth(panel);
       below_ = symbolic_.panelHeight(panel) - width_;
       rows_ = symbolic_.panelRows(panel) + width_;
+      findRows();
+      if (width_ == 1 && below_ <= kFew) {
+        invertColumn();
+        continue;
+      }
       invertTriangle();
       scaleRows();
-      findRows();
       invertRows();
       invertDiagonal();
     }
@@ -39,6 +46,9 @@ class Inversion {
   }
 
  private:
+  /** Rows below a single column, as in graphs that are nearly chains, that are not worth tiles. */
+  static constexpr int kFew = 4;
+
   using Operand = typename TileProducts<kSize>::Operand;
 
   const Block& factor(int row, int column) const {
@@ -49,6 +59,27 @@ class Inversion {
   }
   Block& triangle(int row, int column) { return triangle_[row * width_ + column]; }
   Block& scaled(int row, int column) { return scaled_[row * width_ + column]; }
+
+  /** All of a panel of one column. */
+  void invertColumn() {
+    const Block& inverse_factor = factor(0, 0);
+    std::array<Block, kFew> y;
+    for (int row = 0; row < below_; ++row) y[row].noalias() = factor(1 + row, 0) * inverse_factor;
+    Block& diagonal = inverse(0, 0);
+    diagonal.noalias() = inverse_factor.transpose() * inverse_factor;
+    for (int row = 0; row < below_; ++row) {
+      Block& block = inverse(1 + row, 0);
+      for (int k = 0; k < below_; ++k) {
+        const Block& z = inverse_[symbolic_.panelEntry(rows_[std::min(row, k)]) +
+                                  positions_[positions_of_[std::min(row, k)] + std::max(row, k)]];
+        if (row < k)
+          block.noalias() -= z.transpose() * y[k];
+        else
+          block.noalias() -= z * y[k];
+      }
+      diagonal.noalias() -= y[row].transpose() * block;
+    }
+  }
 
   /** L_JJ⁻¹, negative. */
   void invertTriangle() {
