@@ -148,7 +148,12 @@ const Ini::Entry* Ini::Section::find(const std::string& key) const {
 }
 
 Ini Ini::fromFile(const std::string& path, Faults& faults) {
-  return fromText(readTextFile(path), path, faults);
+  const std::string text = readTextFile(path);
+  if (text.find('\0') != std::string::npos)
+    throw std::runtime_error("'" + path +
+                             "' is not an ini file: it is binary, as rawlogs are; recordings come "
+                             "after the ini");
+  return fromText(text, path, faults);
 }
 
 Ini Ini::fromText(const std::string& text, const std::string& name, Faults& faults) {

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <cstring>
 #include <iostream>
+#include <new>
+#include <system_error>
 
 #include "EndSignals.h"
 #include "lamp/core/Faults.h"
@@ -18,6 +20,13 @@ void checkOutput() {
   errno = 0;
   if (std::cout.flush() || errno == EPIPE) return;  // a reader like `head` has had enough
   throw std::runtime_error(std::string("cannot write to standard output: ") + std::strerror(errno));
+}
+
+/** What std::thread throws where the system refuses one more says nothing of threads. */
+std::string describe(const std::system_error& error) {
+  if (error.code() != std::errc::resource_unavailable_try_again) return error.what();
+  return "the system refuses to start a thread: memory or the number of processes is limited; see "
+         "`ulimit -v` and `ulimit -u`";
 }
 
 }  // namespace
@@ -45,6 +54,10 @@ int runProgram(CLI::App& app, int argc, char** argv, const std::function<void()>
     return fail(error.what(), kWrongUse);
   } catch (const ConfigError& error) {
     return fail("the configuration has faults:\n" + std::string(error.what()), kWrongUse);
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory; if `ulimit -v` shows a limit, raise it", kFailed);
+  } catch (const std::system_error& error) {
+    return fail(describe(error), kFailed);
   } catch (const std::exception& error) {
     return fail(error.what(), kFailed);
   }

@@ -174,6 +174,14 @@ TEST(Ini, ReadsFiles) {
   EXPECT_THAT(test::thrownBy([&] { Ini::fromFile(path + "x", faults); }), HasSubstr(path + "x"));
 }
 
+TEST(Ini, ARecordingGivenByMistakeIsNamedAsSuch) {
+  const std::string path = test::freshFolder() + "/robot.rawlog";
+  writeTextFile(path, std::string("\x1f\x8b\x08\0\0\x03binary", 12));
+  Faults faults;
+  EXPECT_THAT(test::thrownBy([&] { Ini::fromFile(path, faults); }),
+              HasSubstr("'" + path + "' is not an ini file: it is binary, as rawlogs are"));
+}
+
 TEST(IniSet, SplitsAtTheFirstEqualSignThenAtTheLastDotBeforeIt) {
   Ini ini = read("[robot.husky1]\nrawlog = old\nkey = h\n");
   Faults faults;

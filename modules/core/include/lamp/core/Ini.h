@@ -30,7 +30,7 @@ class Ini {
     const Entry* find(const std::string& key) const;
   };
 
-  /** \throws std::runtime_error if the file cannot be read. Faults in it go to `faults`. */
+  /** \throws std::runtime_error if it cannot be read or is no text. Its faults go to `faults`. */
   static Ini fromFile(const std::string& path, Faults& faults);
   static Ini fromText(const std::string& text, const std::string& name, Faults& faults);
 

@@ -16,7 +16,7 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/** The frame of every program: reads the command line, runs, and says on stderr what went wrong.
+/** What all programs do alike: read the command line, run, and say on stderr what went wrong.
  * SIGINT, SIGTERM and SIGHUP end the program and leave no half file.
  * \param end_early for programs that have something to show before their end: the first signal sets
  *    it, and only the second one ends the program.
