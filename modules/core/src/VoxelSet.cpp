@@ -1,4 +1,4 @@
-#include "VoxelSet.h"
+#include "lamp/core/VoxelSet.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -34,7 +34,7 @@ uint64_t VoxelSet::keyOf(const Eigen::Vector3d& point) const {
   for (const double coordinate : point) {
     const double cell = std::floor(coordinate / voxel_m_);
     if (!(std::abs(cell) < kHalfSpan))
-      throw std::runtime_error("a map point at " + std::to_string(coordinate) +
+      throw std::runtime_error("a point at " + std::to_string(coordinate) +
                                " m is too far from the origin for voxels of " +
                                std::to_string(voxel_m_) + " m: raise voxel_m or set it to 0");
     key = (key << kBitsPerAxis) | static_cast<uint64_t>(cell + kHalfSpan);

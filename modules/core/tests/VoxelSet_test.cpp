@@ -1,4 +1,4 @@
-#include "VoxelSet.h"
+#include "lamp/core/VoxelSet.h"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 
 #include "Colormap.h"
-#include "lamp/core/Csv.h"
+#include "lamp/core/CloudHeader.h"
 #include "lamp/core/Files.h"
 #include "lamp/core/PlyVertices.h"
 
@@ -71,22 +72,24 @@ MapEvaluation evaluateMap(const std::string& cloud, const Pose3& surface_T_world
 }
 
 void writeErrorPly(const std::string& path, const MapEvaluation& map, double full_scale_m) {
+  constexpr auto kByte = CloudScalar::kUint8;
+  std::ostringstream comment;
+  comment << "error in metres, coloured from 0 to " << full_scale_m;
+  CloudLayout layout{
+      {comment.str()},
+      {{"x"}, {"y"}, {"z"}, {"red", kByte}, {"green", kByte}, {"blue", kByte}, {"error"}},
+      map.points.size()};
+  if (const std::string offset = offsetComment(map.world_p_origin); !offset.empty())
+    layout.comments.push_back(offset);
+  std::string bytes = plyHeader(layout);
+  for (size_t i = 0; i < map.points.size(); ++i) {
+    appendBytes(map.points[i], bytes);
+    for (const uint8_t channel : viridis(map.errors_m[i] / full_scale_m))
+      appendBytes(channel, bytes);
+    appendBytes(map.errors_m[i], bytes);
+  }
   writeBinaryFile(path, [&](std::ostream& file) {
-    file << "ply\nformat binary_little_endian 1.0\ncomment error in metres, coloured from 0 to "
-         << full_scale_m;
-    if (!map.world_p_origin.isZero(0)) {
-      file << "\ncomment offset";
-      for (const double coordinate : map.world_p_origin) file << " " << formatFixed(coordinate, 0);
-    }
-    file << "\nelement vertex " << map.points.size()
-         << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red"
-            "\nproperty uchar green\nproperty uchar blue\nproperty float error\nend_header\n";
-    for (size_t i = 0; i < map.points.size(); ++i) {
-      const auto color = viridis(map.errors_m[i] / full_scale_m);
-      file.write(reinterpret_cast<const char*>(map.points[i].data()), 3 * sizeof(float));
-      file.write(reinterpret_cast<const char*>(color.data()), color.size());
-      file.write(reinterpret_cast<const char*>(&map.errors_m[i]), sizeof(float));
-    }
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   });
 }
 

@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "lamp/core/Csv.h"
-
 namespace lamp {
 
 std::string robotName(const ComponentMap& map, RobotId robot) {
   return map.robots && robot.value < map.robots->size() ? map.robots->name(robot)
                                                         : "robot " + std::to_string(robot.value);
-}
-
-std::string offsetText(const ComponentMap& map) {
-  if (map.world_p_origin.isZero(0)) return "";
-  std::string text = "offset";
-  for (const double coordinate : map.world_p_origin) text += " " + formatFixed(coordinate, 0);
-  return text;
 }
 
 namespace {

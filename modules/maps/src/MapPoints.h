@@ -9,10 +9,6 @@ namespace lamp {
 /** The robot's name, or `robot <n>` where the table does not have it. */
 std::string robotName(const ComponentMap& map, RobotId robot);
 
-/** `offset X Y Z`, what is to be added to the map's coordinates to get the world's, as exporters
- * write it into a comment of their files. Empty if there is nothing to add. */
-std::string offsetText(const ComponentMap& map);
-
 /** \throws std::runtime_error naming the key node or robot if a pose or loop is not finite,
  * or a keyed scan's fields differ in length or name no sensor. */
 void checkMap(const ComponentMap& map);

@@ -2,6 +2,7 @@
 
 #include "MapPoints.h"
 #include "OctreeScanInserter.h"
+#include "lamp/core/CloudHeader.h"
 #include "lamp/core/Files.h"
 
 IMPLEMENTS_MRPT_OBJECT(OctoMap, lamp::MapExporter, lamp)
@@ -54,7 +55,8 @@ std::vector<std::string> OctoMap::exportMap(const ComponentMap& map, const std::
         "%zu rays end beyond the range of an octree with voxels of %g m and are left out",
         inserter.raysOutOfBounds(), options_.resolution_m);
 
-  const std::string log_odds = stem + ".ot", binary = stem + ".bt", offset = offsetText(map);
+  const std::string log_odds = stem + ".ot", binary = stem + ".bt",
+                    offset = offsetComment(map.world_p_origin);
   writeBinaryFile(log_odds, [&](std::ostream& file) { writeLogOdds(tree, offset, file); });
   // Second, because it turns the log-odds in the tree into certain values.
   writeBinaryFile(binary, [&](std::ostream& file) { writeBonsai(tree, offset, file); });

@@ -17,7 +17,7 @@ class OctreeScanInserter {
       : tree_(tree), max_range_m_(max_range_m) {}
 
   void insert(const Scan& scan, const Pose3& world_T_base);
-  /** Rays left out so far because an end lies outside of what 16-bit voxel keys reach. */
+  /** Rays left out so far because an end lies beyond the reach of 16-bit voxel keys. */
   size_t raysOutOfBounds() const { return rays_out_of_bounds_; }
 
  private:

@@ -28,7 +28,7 @@ Pose3 sideView() {
   return view_T_target;
 }
 
-/** Clouds that are looked at from one side, the source at one pose. */
+/** Both clouds seen from one side, with the source at one pose. */
 struct Panel {
   Pose3 view_T_target, view_T_source;
   std::string title;
@@ -81,7 +81,7 @@ std::vector<Row> rowsOf(const RegistrationPicture& picture) {
   return rows;
 }
 
-/** Point by point in turn, so that neither cloud hides the other. */
+/** Draws points of both clouds in turn, so that neither hides the other. */
 void drawPoints(const RegistrationPicture& picture, const Panel& panel, const TopView& view,
                 LinePen& pen) {
   const Points &source = picture.source.points, &target = picture.target.points;

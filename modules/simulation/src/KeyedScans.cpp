@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <unordered_set>
+
+#include "lamp/core/VoxelSet.h"
 
 namespace lamp::simulation {
 
@@ -39,21 +40,13 @@ Eigen::Vector3d originOf(const Lidar& lidar, const std::vector<double>& stamps,
          lidar.baseTSensor(middle).translation();
 }
 
-uint64_t voxelKey(const Eigen::Vector3f& point, float leaf_m) {
-  const auto part = [&](float value) {
-    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(value / leaf_m)) + (1 << 18)) &
-           0x7ffff;
-  };
-  return (part(point.x()) << 38) | (part(point.y()) << 19) | part(point.z());
-}
-
 /** Of the points in `among`, the first in each voxel. */
 std::vector<size_t> firstOfVoxels(const Scan& scan, const std::vector<size_t>& among,
                                   float leaf_m) {
-  std::unordered_set<uint64_t> taken;
+  VoxelSet taken(1.0);
   std::vector<size_t> kept;
   for (const size_t i : among)
-    if (taken.insert(voxelKey(scan.points[i], leaf_m)).second) kept.push_back(i);
+    if (taken.insert((scan.points[i] / leaf_m).cast<double>())) kept.push_back(i);
   return kept;
 }
 

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "lamp/core/CloudHeader.h"
 #include "lamp/core/Csv.h"
 #include "lamp/core/Files.h"
 
@@ -37,12 +37,6 @@ void sampleTriangle(const Mesh& mesh, size_t triangle, double spacing_m, Visit v
     }
 }
 
-void appendFloats(const Eigen::Vector3f& v, std::string& bytes) {
-  char raw[3 * sizeof(float)];
-  std::memcpy(raw, v.data(), sizeof raw);
-  bytes.append(raw, sizeof raw);
-}
-
 }  // namespace
 
 size_t writeTruthMap(const std::string& path, const Mesh& mesh, const SeenTriangles& seen,
@@ -53,19 +47,17 @@ size_t writeTruthMap(const std::string& path, const Mesh& mesh, const SeenTriang
     const Eigen::Vector3f normal = mesh.normal(i);
     if (normal.isZero()) continue;
     sampleTriangle(mesh, i, spacing_m, [&](const Eigen::Vector3f& point) {
-      appendFloats(point, body);
-      appendFloats(normal, body);
+      appendBytes(point, body);
+      appendBytes(normal, body);
       body.push_back(seen[i] ? 1 : 0);
       ++count;
     });
   }
-  const std::string header =
-      "ply\nformat binary_little_endian 1.0\ncomment mrpt-lamp: the true surface\n"
-      "element vertex " +
-      std::to_string(count) +
-      "\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\n"
-      "property float ny\nproperty float nz\nproperty uchar seen\nend_header\n";
-  writeTextFile(path, header + body);
+  const CloudLayout layout{
+      {"mrpt-lamp: the true surface"},
+      {{"x"}, {"y"}, {"z"}, {"nx"}, {"ny"}, {"nz"}, {"seen", CloudScalar::kUint8}},
+      count};
+  writeTextFile(path, plyHeader(layout) + body);
   return count;
 }
 
