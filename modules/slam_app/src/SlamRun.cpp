@@ -11,6 +11,7 @@
 
 #include "Delivery.h"
 #include "FrontEndTeam.h"
+#include "RunDescription.h"
 #include "TeamArrivals.h"
 #include "WorldFrame.h"
 #include "lamp/base_station/BaseStation.h"
@@ -47,7 +48,7 @@ class FrontEndThread {
     if (thread_.joinable()) thread_.join();
   }
 
-  /** Nothing is read, and so no robot appears, while the lock is held. */
+  /** While the lock is held nothing is read, so no robot can appear. */
   std::unique_lock<std::mutex> pause() { return std::unique_lock<std::mutex>(reading_); }
 
   /** Share of the input read. */

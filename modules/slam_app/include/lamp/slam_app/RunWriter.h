@@ -46,7 +46,4 @@ std::vector<std::string> writeRun(const RunFolder& folder, const RunResult& resu
 void writeTimings(const RunFolder& folder, const mrpt::system::CTimeLogger& timer,
                   const PreparationReport& preparation, int threads);
 
-/** What a user wants to know at the end of a run, a few lines. */
-std::string describeRun(const RunFolder& folder, const RunResult& result);
-
 }  // namespace lamp
