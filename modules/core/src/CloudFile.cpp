@@ -42,7 +42,8 @@ class PointTaker {
     }
   }
 
-  CloudPoints cloud(const Vector3d& viewpoint) && {
+  /** \param stated the file's own offset. */
+  CloudPoints cloud(const Vector3d& viewpoint, const Vector3d& stated) && {
     const Vector3d middle = median();
     if (middle.cwiseAbs().maxCoeff() > kLarge_m) {
       cloud_.offset = (middle / kRoundOffset_m).array().round() * kRoundOffset_m;
@@ -52,11 +53,12 @@ class PointTaker {
       cloud_.points.push_back((point - cloud_.offset).cast<float>());
     if (cloud_.offset.isZero() || (viewpoint - middle).norm() < kFarFromSensor_m)
       cloud_.viewpoint = viewpoint - cloud_.offset;
+    cloud_.offset += stated;
     return std::move(cloud_);
   }
 
  private:
-  /** Of each axis; zero of none. */
+  /** Along each axis; zero without points. */
   Vector3d median() const {
     Vector3d middle = Vector3d::Zero();
     std::vector<double> values(points_.size());
@@ -97,7 +99,7 @@ CloudPoints readPly(std::unique_ptr<std::istream> file, const std::string& name)
   taker.reserve(vertices.count());
   vertices.read(
       {"x", "y", "z"}, [&](const double* xyz) { taker.take(xyz); }, PlyVertices::NotFinite::kTake);
-  return std::move(taker).cloud(Vector3d::Zero());
+  return std::move(taker).cloud(Vector3d::Zero(), vertices.offset());
 }
 
 CloudPoints readPcd(std::unique_ptr<std::istream> stream, const std::string& name) {
@@ -105,7 +107,7 @@ CloudPoints readPcd(std::unique_ptr<std::istream> stream, const std::string& nam
   PointTaker taker;
   taker.reserve(file.header().points);
   file.readXyz([&](const double* xyz) { taker.take(xyz); });
-  return std::move(taker).cloud(file.header().viewpoint);
+  return std::move(taker).cloud(file.header().viewpoint, file.header().offset);
 }
 
 CloudKind kindOf(const std::string& path) {

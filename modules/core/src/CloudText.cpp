@@ -1,5 +1,6 @@
 #include "CloudText.h"
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -29,6 +30,14 @@ double CloudText::number(const std::string& word) const {
 
 void CloudText::failAt(size_t line, const std::string& what) const {
   throw std::runtime_error(name_ + ":" + std::to_string(line) + ": " + what);
+}
+
+void takeOffset(const std::vector<std::string>& words, Eigen::Vector3d& offset) {
+  if (words.size() != 5 || words[1] != "offset") return;
+  Eigen::Vector3d stated;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!parseDouble(words[2 + axis], stated[axis]) || !std::isfinite(stated[axis])) return;
+  offset = stated;
 }
 
 }  // namespace lamp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <istream>
 #include <string>
 #include <vector>
@@ -31,5 +32,10 @@ class CloudText {
   const std::string name_;
   size_t line_;
 };
+
+/** Takes the numbers of a comment `offset X Y Z`: what to add to the points for world coordinates.
+ * Other programs' comments may begin with the same word: only three numbers are an offset.
+ * \param words of a line that is a comment. */
+void takeOffset(const std::vector<std::string>& words, Eigen::Vector3d& offset);
 
 }  // namespace lamp

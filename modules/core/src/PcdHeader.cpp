@@ -14,7 +14,7 @@ namespace lamp {
 
 namespace {
 
-/** By what SIZE and TYPE say. */
+/** By the values of SIZE and TYPE. */
 const std::map<std::string, Scalar> kScalars = {
     {"1I", Scalar::of<int8_t>()},   {"1U", Scalar::of<uint8_t>()},  {"2I", Scalar::of<int16_t>()},
     {"2U", Scalar::of<uint16_t>()}, {"4I", Scalar::of<int32_t>()},  {"4U", Scalar::of<uint32_t>()},
@@ -28,7 +28,7 @@ const std::map<std::string, PcdData> kData = {{"ascii", PcdData::kAscii},
 const std::array<std::string, 10> kKeywords = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
                                                "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
-/** What differs between them has defaults. */
+/** Lines that some of them lack have defaults. */
 const std::array<std::string, 6> kVersions = {"0.5", ".5", "0.6", ".6", "0.7", ".7"};
 
 std::string lowerCase(std::string text) {
@@ -36,7 +36,7 @@ std::string lowerCase(std::string text) {
   return text;
 }
 
-/** Beyond this a number of points or of a field's numbers is damage; products of a few stay below
+/** More points, or more numbers in a field, are damage; the product of any two stays below
  * 2^64. */
 constexpr double kMaxOfAnything = 1e9;
 
@@ -73,7 +73,10 @@ class PcdHeaderReader {
   void readLines() {
     std::vector<std::string> words;
     while (text_.next(words)) {
-      if (words[0][0] == '#') continue;
+      if (words[0][0] == '#') {
+        takeOffset(words, header_.offset);
+        continue;
+      }
       // The name of FIELDS before version 0.7.
       const std::string keyword = words[0] == "COLUMNS" ? "FIELDS" : words[0];
       if (std::find(kKeywords.begin(), kKeywords.end(), keyword) == kKeywords.end())

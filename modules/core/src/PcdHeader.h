@@ -26,6 +26,8 @@ struct PcdHeader {
   std::vector<PcdField> fields;
   size_t points = 0;
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();  ///< of the sensor, metres
+  /** What to add to `x y z` for world coordinates: a line `# offset X Y Z`. */
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   PcdData data = PcdData::kAscii;
   size_t lines = 0;  ///< of the header itself
 

@@ -57,18 +57,9 @@ class PlyHeaderReader {
     else if (words[0] == "property")
       takeProperty(words);
     else if (words[0] == "comment")
-      takeComment(words);
+      takeOffset(words, header_.offset);
     else if (words[0] != "obj_info")
       text_.fail("'" + words[0] + "' starts no line of a PLY header");
-  }
-
-  /** Other programs' comments may begin with the same word: only three numbers are an offset. */
-  void takeComment(const Words& words) {
-    if (words.size() != 5 || words[1] != "offset") return;
-    Eigen::Vector3d offset;
-    for (int axis = 0; axis < 3; ++axis)
-      if (!parseDouble(words[2 + axis], offset[axis]) || !std::isfinite(offset[axis])) return;
-    header_.offset = offset;
   }
 
   void takeFormat(const Words& words) {

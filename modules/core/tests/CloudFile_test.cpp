@@ -245,6 +245,17 @@ TEST(CloudFile, SurveyCoordinatesKeepTheirMillimetres) {
   }
 }
 
+TEST(CloudFile, AStatedOffsetIsAddedToWhatWasTaken) {
+  const Eigen::Vector3d stated(431000, 5412000, 0);
+  const CloudPoints near = readPcd("# offset 431000 5412000 0\n" + pcdAround({1, 2, 3}, false));
+  EXPECT_EQ(near.offset, stated);
+  EXPECT_EQ(near.viewpoint.value(), Eigen::Vector3d::Zero());
+  const CloudPoints far = readPcd("# offset 431000 5412000 0\n" + pcdAround({50010, 0, 0}, false));
+  EXPECT_EQ(far.offset, stated + Eigen::Vector3d(50000, 0, 0));
+  EXPECT_EQ(readPcd("# offset of the map\n" + pcdAround({1, 2, 3}, false)).offset,
+            Eigen::Vector3d::Zero());
+}
+
 TEST(CloudFile, CoordinatesThatFloatsHaveRoundedAreKnown) {
   const Eigen::Vector3d utm(431200.25, 5412345.5, 312), grid(43120.25, 1234.5, 312);
   EXPECT_EQ(readPcd(pcdAround(utm, true)).rounded_to_m, 0.5);

@@ -11,17 +11,18 @@ namespace lamp {
 
 /** The points of a file, and what it says of them. */
 struct CloudPoints {
-  std::vector<Eigen::Vector3f> points;  ///< in the frame of the file less the offset, metres
-  /** What was taken from the coordinates, as doubles, before they became floats. Zero, but for
-   * points in a national grid or UTM, which floats would round to centimetres or worse. */
+  std::vector<Eigen::Vector3f> points;  ///< in world coordinates less the offset, metres
+  /** What to add for world coordinates: what the file states as `offset X Y Z` in a comment, as our
+   * maps do, and what was taken from coordinates in a national grid or UTM before they became
+   * floats, which would round them to centimetres or worse. */
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   size_t not_finite = 0;  ///< points left out, since a coordinate was no number
   size_t no_return = 0;   ///< points left out at 0 0 0: what lidars write for rays without a return
   /** Where the sensor stood, in the frame of the points: a PCD file's VIEWPOINT, else the origin.
    * None if that is far from the points: nobody has told. */
   std::optional<Eigen::Vector3d> viewpoint;
-  /** To what the coordinates had been rounded before they came here, metres: large coordinates have
-   * been floats. 0 if that is nothing to think of. */
+  /** The step to which large coordinates had been rounded by being floats before, metres; 0 if they
+   * had not, or are not large. */
   double rounded_to_m = 0;
 };
 
