@@ -154,6 +154,60 @@ TEST_F(RegisterPair, WorksInSurveyCoordinates) {
   EXPECT_LT((moved - expected).norm(), 0.05);
 }
 
+TEST_F(RegisterPair, AMapInAFrameOfItsOwnStatesItsOffset) {
+  const Eigen::Vector3d offset(431200, 5412300, 0);
+  std::string text = plyText(scan(world_, world_T_target_, 1));
+  text.insert(text.find("element"), "comment offset 431200 5412300 0\n");
+  const std::string target = file("map.ply", text);
+  const std::string source =
+      file("utm_source.ply", surveyPly(scan(world_, world_T_source_, 2), offset, false));
+  ASSERT_EQ(run({source, target}).exit_code, 0);
+  const auto result = json();
+  EXPECT_TRUE(result["accepted"]) << result["reason"];
+  EXPECT_EQ(offsetOf(result["target"]), offset);
+  EXPECT_EQ(offsetOf(result["source"]), offset);
+}
+
+/** A map of a building, with z up, as seen from all around it. */
+std::string mapOf(const BoxWorld& world) {
+  Points points;
+  unsigned seed = 10;
+  for (const Pose3& place : {at(4, 4, 0), at(10, 3.5, 1), at(16, 4, 2), at(16, 11, 3),
+                             at(10, 11, 4), at(4, 11, 5), at(4, 7.5, 6), at(16, 7.5, 1)})
+    for (const auto& p : scan(world, place, ++seed)) points.push_back(place * p);
+  return plyText(points);
+}
+
+TEST_F(RegisterPair, FindsTheScanInAMap) {
+  const LampResult end = run({source_, file("map.ply", mapOf(world_))});
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  const auto result = json();
+  ASSERT_TRUE(result["accepted"]) << end.out;
+  Pose3 found;
+  for (int i = 0; i < 16; ++i) found.matrix()(i / 4, i % 4) = result["target_T_source"][i];
+  const Pose3 error = found.inverse() * world_T_source_;
+  EXPECT_LT(error.translation().norm(), 0.1);
+  EXPECT_LT(rotationAngle(error), 0.02);
+}
+
+TEST_F(RegisterPair, RefusesAMapOfAnotherPlace) {
+  ASSERT_EQ(run({source_, file("map.ply", mapOf(BoxWorld::building(8)))}).exit_code, 0);
+  EXPECT_FALSE(json()["accepted"]);
+}
+
+TEST_F(RegisterPair, NoiseAllOverSpaceDoesNotCoarsenTheSurfaces) {
+  Points points = scan(world_, world_T_source_, 2);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(-300, 300);
+  for (int i = 0; i < 4000; ++i)
+    points.emplace_back(anywhere(random), anywhere(random), anywhere(random));
+  ASSERT_EQ(run({file("rain.ply", plyText(points)), target_}).exit_code, 0);
+  const auto result = json();
+  EXPECT_TRUE(result["accepted"]) << result["reason"];
+  EXPECT_GT(result["source"]["left_out"], 3900);
+  EXPECT_LE(result["source"]["left_out"], 4000);
+}
+
 TEST_F(RegisterPair, CoordinatesThatWereRoundedOrAreNoMetresAreErrorsWithACure) {
   const Points points = scan(world_, world_T_source_, 2);
   const std::string rounded =

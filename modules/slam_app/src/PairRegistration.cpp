@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "MapRegistration.h"
 #include "lamp/scans/Cloud.h"
 
 namespace lamp {
@@ -16,7 +17,7 @@ constexpr float kLevel_m = 1e-3f;
 
 class Stopwatch {
  public:
-  /** Since it was made, or read before. */
+  /** Since the last call, or since it was made. */
   double seconds() {
     const auto now = Clock::now(), before = std::exchange(start_, now);
     return std::chrono::duration<double>(now - before).count();
@@ -43,6 +44,23 @@ PreparedScanPtr prepare(const RegisteredCloud& cloud, const PreparationOptions& 
   return scan;
 }
 
+void registerViews(PairRegistration& pair, const PreparedScan& source, const SlamConfig& config) {
+  const Eigen::Vector3f viewpoint = pair.source.scan->sensors.front().position.cast<float>();
+  MapRegistration registration = registerOnMap(source, viewpoint, pair.target.map, config);
+  pair.attempt = std::move(registration.attempt);
+  pair.target.notes.push_back("it was not seen from one place: of " +
+                              std::to_string(registration.views) + " views from places in it " +
+                              std::to_string(registration.accepted) + " lead to a pose");
+}
+
+/** A map has no free space and no sides of walls. */
+void noteMaps(PairRegistration& pair) {
+  if (!pair.source.map.empty())
+    pair.source.notes.push_back(
+        "it was not seen from one place, as a scan is: give a map as the target, or cut out what "
+        "can be seen from one place in it, with that place as VIEWPOINT");
+}
+
 }  // namespace
 
 bool PairRegistration::hasResult() const {
@@ -66,8 +84,11 @@ PairRegistration registerPair(const std::string& source, const std::string& targ
   pair.prepare_source_s = watch.seconds();
   const auto prepared_target = prepare(pair.target, config.registration.preparation, pair.planar);
   pair.prepare_target_s = watch.seconds();
+  noteMaps(pair);
   pair.attempt =
       config.makeLoopClosureComputation().compute(*prepared_source, *prepared_target, Guess());
+  const bool onto_map = !pair.target.map.empty() && pair.source.map.empty() && !pair.planar;
+  if (onto_map && !pair.attempt.accepted) registerViews(pair, *prepared_source, config);
   pair.align_refine_verify_s = watch.seconds();
   return pair;
 }

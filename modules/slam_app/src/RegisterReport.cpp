@@ -19,7 +19,7 @@ std::string format(const char* pattern, Values... values) {
   return text;
 }
 
-/** A name before what is said of it; names stand in one column. */
+/** One line of the report: the name in a column of its own, then the text. */
 std::string line(const std::string& name, const std::string& text) {
   return format("%-20s ", name.c_str()) + text + "\n";
 }
@@ -27,11 +27,13 @@ std::string line(const std::string& name, const std::string& text) {
 std::string cloudLine(const char* role, const RegisteredCloud& cloud) {
   std::string text = cloud.path + ": " + std::to_string(cloud.read) + " points";
   if (cloud.left_out > 0)
-    text += ", " + std::to_string(cloud.left_out) + " left out: not finite, 0 0 0 or too far away";
+    text += ", " + std::to_string(cloud.left_out) +
+            " left out: not finite, 0 0 0, too far away or noise";
   if (cloud.leaf_m > 0)
     text += format(", thinned to %zu with voxels of %.2f m", cloud.scan->size(), cloud.leaf_m);
   text = line(role, text);
-  if (!cloud.offset.isZero()) text += line("", "its frame: the file's less " + offsetText(cloud));
+  if (!cloud.offset.isZero())
+    text += line("", "its frame: world coordinates less " + offsetText(cloud));
   for (const std::string& note : cloud.notes) text += line("", note);
   return text;
 }
@@ -64,7 +66,7 @@ std::string scoreLines(const std::vector<Score>& scores) {
   return text;
 }
 
-/** Standard deviations in the tangent space; none of axes of which a part is not observed. */
+/** Standard deviations in the tangent space; none for axes that are not wholly observed. */
 std::array<std::optional<double>, 6> deviations(const Matrix6d& information) {
   constexpr double kNothing = 1e-10, kUnobservedPart = 1e-2;
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information);

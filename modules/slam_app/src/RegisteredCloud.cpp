@@ -1,13 +1,13 @@
 #include "RegisteredCloud.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <stdexcept>
 
+#include "MapViews.h"
 #include "lamp/core/CloudFile.h"
+#include "lamp/scans/LonePoints.h"
 #include "lamp/scans/VoxelFilter.h"
 
 namespace lamp {
@@ -17,11 +17,11 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/** Prepared scans have no points beyond it, and voxels need a bound. */
+/** Prepared scans leave out points beyond it, since voxel grids need a bound. */
 constexpr float kFarthest_m = 1e6f;
 /** Offsets that lie nearer to each other can be one: floats are good to a millimetre over that. */
 constexpr double kRegion_m = 1e4;
-/** Rounding to more than this is more than what a registration is good for. */
+/** Coarser rounding would be all that a registration sees. */
 constexpr double kMaxRounding_m = 0.1;
 /** Half of a scan's points lie within these ranges, if they are metres. */
 constexpr double kMinMedianRange_m = 0.2, kMaxMedianRange_m = 1000;
@@ -44,7 +44,7 @@ struct Loaded {
   double median_range_m = 0;
 };
 
-/** Where the file does not tell: in their midst. */
+/** For files that do not say where the sensor stood. */
 Vector3f middleOf(const std::vector<Vector3f>& points) {
   Vector3d sum = Vector3d::Zero();
   for (const Vector3f& p : points) sum += p.cast<double>();
@@ -101,45 +101,28 @@ Loaded load(const std::string& path) {
   return loaded;
 }
 
-/** Share of the points that lie far behind another one as seen from the sensor: many in a map,
- * which was seen from many places. */
-double shareHidden(const Loaded& loaded) {
+/** Whether many points lie far behind others as seen from the sensor: a map, which was seen from
+ * many places. */
+bool isMap(const Loaded& loaded) {
   constexpr size_t kPoints = 30000;
-  constexpr float kCell = 0.035f, kBehind = 1.5f, kBehind_m = 1.0f;
-  std::map<std::array<int, 3>, float> nearest;
-  const auto cellOf = [&](const Vector3f& ray) {
-    const Vector3f direction = ray.normalized() / kCell;
-    return std::array<int, 3>{static_cast<int>(std::floor(direction.x())),
-                              static_cast<int>(std::floor(direction.y())),
-                              static_cast<int>(std::floor(direction.z()))};
-  };
+  constexpr double kManyHidden = 0.4;
   const std::vector<Vector3f>& points = loaded.cloud.points;
-  const size_t stride = std::max<size_t>(1, points.size() / kPoints);
-  for (size_t i = 0; i < points.size(); i += stride) {
-    const Vector3f ray = points[i] - loaded.viewpoint;
-    float& range = nearest.emplace(cellOf(ray), ray.norm()).first->second;
-    range = std::min(range, ray.norm());
-  }
-  size_t hidden = 0, count = 0;
-  for (size_t i = 0; i < points.size(); i += stride, ++count) {
-    const Vector3f ray = points[i] - loaded.viewpoint;
-    hidden += ray.norm() > kBehind * nearest[cellOf(ray)] + kBehind_m;
-  }
-  return static_cast<double>(hidden) / static_cast<double>(count);
+  std::vector<Vector3f> some;
+  for (size_t i = 0; i < points.size(); i += std::max<size_t>(1, points.size() / kPoints))
+    some.push_back(points[i]);
+  const NearestRanges ranges(some, loaded.viewpoint);
+  const auto hidden = std::count_if(some.begin(), some.end(),
+                                    [&](const Vector3f& point) { return ranges.hides(point); });
+  return static_cast<double>(hidden) > kManyHidden * static_cast<double>(some.size());
 }
 
 std::vector<std::string> notesOn(const Loaded& loaded, const Loaded& other) {
-  constexpr double kManyHidden = 0.4;
   std::vector<std::string> notes;
   if (loaded.cloud.rounded_to_m > 0)
     notes.push_back(
         format("its coordinates had been rounded to %.3f m as floats", loaded.cloud.rounded_to_m));
   if (!loaded.cloud.viewpoint)
     notes.push_back("it does not say where the sensor stood: its middle is taken");
-  if (shareHidden(loaded) > kManyHidden)
-    notes.push_back(
-        "it was not seen from one place: a map of several scans has no free space and no sides of "
-        "walls; cut out what can be seen from one place in it, with that place as VIEWPOINT");
   if (loaded.median_range_m > kMaxSizeRatio * other.median_range_m)
     notes.push_back(format("it is %.0f times as large as '%s': are both in metres?",
                            loaded.median_range_m / other.median_range_m, other.path.c_str()));
@@ -157,6 +140,29 @@ void shareOffset(Loaded& source, const Loaded& target) {
   source.cloud.offset = target.cloud.offset;
 }
 
+/** Thins the scan as the front end does. Where most of what is left then stands alone in space,
+ * that is noise, which no voxel filter thins, and the surfaces have got too coarse: once more
+ * without. */
+void thin(Scan& scan, RegisteredCloud& result, const AdaptiveVoxelOptions& options) {
+  const auto thinned = [&](const Scan& from) {
+    AdaptiveVoxelFilter filter(options);
+    Scan filtered = filter.filter(from);
+    result.leaf_m = filter.leaf();
+    return filtered;
+  };
+  Scan filtered = thinned(scan);
+  const Scan rest = withoutLonePoints(scan, options.max_leaf_m);
+  const size_t lone = scan.size() - rest.size();
+  if (2 * lone > filtered.size()) {
+    result.left_out += lone;
+    result.notes.push_back(
+        format("%zu points that have no other within %.1f m are left out as noise", lone,
+               options.max_leaf_m));
+    filtered = thinned(rest);
+  }
+  scan = std::move(filtered);
+}
+
 RegisteredCloud registeredCloud(Loaded loaded, std::vector<std::string> notes,
                                 const FrontEndOptions& options) {
   RegisteredCloud result;
@@ -165,15 +171,13 @@ RegisteredCloud registeredCloud(Loaded loaded, std::vector<std::string> notes,
   result.offset = loaded.cloud.offset;
   result.notes = std::move(notes);
   result.left_out = loaded.read - loaded.cloud.points.size();
+  if (isMap(loaded)) result.map = loaded.cloud.points;
   Scan scan;
   scan.points = std::move(loaded.cloud.points);
   scan.sensors = {{"lidar", loaded.viewpoint.cast<double>()}};
   scan.sensor.assign(scan.size(), 0);
-  if (!options.keyed && scan.size() > static_cast<size_t>(options.voxel.target_points)) {
-    AdaptiveVoxelFilter filter(options.voxel);
-    scan = filter.filter(scan);
-    result.leaf_m = filter.leaf();
-  }
+  if (!options.keyed && scan.size() > static_cast<size_t>(options.voxel.target_points))
+    thin(scan, result, options.voxel);
   result.scan = std::make_shared<const Scan>(std::move(scan));
   return result;
 }

@@ -14,11 +14,14 @@ namespace lamp {
 struct RegisteredCloud {
   std::string path;
   size_t read = 0;      ///< points in the file
-  size_t left_out = 0;  ///< of these, that are not finite, no return, or too far away
+  size_t left_out = 0;  ///< of these, that are not finite, no return, too far away, or noise
   double leaf_m = 0;    ///< of the voxel filter; 0 if it was not needed
-  KeyedScanPtr scan;    ///< in the frame of the file less the offset
-  /** What was taken from the file's coordinates, metres; of clouds in a national grid or UTM. */
+  KeyedScanPtr scan;    ///< in world coordinates less the offset
+  /** What to add for world coordinates, metres: of maps that state it, and of clouds in a national
+   * grid or UTM. */
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  /** All points, if the cloud was not seen from one place; else empty. */
+  std::vector<Eigen::Vector3f> map;
   std::vector<std::string> notes;  ///< what may stand in the way of a good registration
 };
 

@@ -1,0 +1,175 @@
+#include "MapRegistration.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "MapViews.h"
+#include "lamp/scans/Agreement.h"
+#include "lamp/scans/Cloud.h"
+#include "lamp/scans/VoxelFilter.h"
+
+namespace lamp {
+
+namespace {
+
+using Eigen::Vector3f;
+
+/** A scan shares most of what it sees with one from half this distance. */
+constexpr float kSpacing_m = 4;
+/** Share of what a scan sees that the map of the place must show, but for its edges. Among so many
+ * views a scan from elsewhere finds one that it agrees with to half. */
+constexpr double kLeastOverlap = 0.7;
+/** Large maps are looked at from places that lie farther apart. */
+constexpr size_t kMaxViews = 500;
+
+float quantile(std::vector<float> values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/** Of nearly all points. */
+float rangeOf(const PreparedScan& scan, const Vector3f& viewpoint) {
+  std::vector<float> ranges;
+  for (const Vector3f& point : scan.points()) ranges.push_back((point - viewpoint).norm());
+  return quantile(std::move(ranges), 0.98);
+}
+
+/** Of the sensor above the floor around it; a usual one where the scan does not show it. */
+float heightOf(const PreparedScan& scan, const Vector3f& viewpoint) {
+  constexpr float kAround_m = 5, kUsual_m = 1, kLowest_m = 0.2f, kHighest_m = 3;
+  std::vector<float> depths;
+  for (const Vector3f& point : scan.points()) {
+    const Vector3f ray = point - viewpoint;
+    if (ray.head<2>().norm() < kAround_m && ray.z() < 0) depths.push_back(-ray.z());
+  }
+  if (depths.empty()) return kUsual_m;
+  return std::clamp(quantile(std::move(depths), 0.9), kLowest_m, kHighest_m);
+}
+
+std::vector<Vector3f> viewpointsIn(const std::vector<Vector3f>& map, float height_m) {
+  float spacing_m = kSpacing_m;
+  std::vector<Vector3f> places = standpoints(map, height_m, spacing_m);
+  while (places.size() > kMaxViews) places = standpoints(map, height_m, spacing_m *= 2);
+  return places;
+}
+
+/** What a lidar would see from places in a map. */
+class Views {
+ public:
+  Views(const std::vector<Vector3f>& map, float range_m, const SlamConfig& config)
+      : map_(map), range_m_(range_m), config_(config) {}
+
+  PreparedScanPtr from(const Vector3f& place) const {
+    Scan view;
+    view.points = visibleFrom(place, map_, range_m_);
+    view.sensors = {{"lidar", place.cast<double>()}};
+    view.sensor.assign(view.size(), 0);
+    AdaptiveVoxelFilter filter(config_.frontend.voxel);
+    const auto thinned = std::make_shared<const Scan>(filter.filter(view));
+    const PreparationOptions& options = config_.registration.preparation;
+    return std::make_shared<const PreparedScan>(
+        accumulate({{thinned, Pose3::Identity()}}, options.accumulate_voxel_m), options.scan,
+        false);
+  }
+
+ private:
+  const std::vector<Vector3f>& map_;
+  const float range_m_;
+  const SlamConfig& config_;
+};
+
+/** What one view led to. */
+struct ViewOutcome {
+  LoopClosureAttempt attempt;
+  double overlap = 0;  ///< of the scan with the view from where the pose puts it
+};
+
+/** Registers the scan with the view from a place, and verifies the pose with the view from where it
+ * puts the scan: only that shows all that the scan should see. */
+ViewOutcome tryView(const PreparedScan& scan, const Vector3f& viewpoint, const Vector3f& place,
+                    const Views& views, const LoopClosureComputation& computation) {
+  ViewOutcome outcome;
+  outcome.attempt = computation.compute(scan, *views.from(place), Guess());
+  if (!outcome.attempt.accepted) return outcome;
+  Hypothesis hypothesis;
+  hypothesis.target_T_source = outcome.attempt.result.target_T_source;
+  const PreparedScanPtr own_view =
+      views.from((hypothesis.target_T_source * viewpoint.cast<double>()).cast<float>());
+  LoopClosureAttempt verified = computation.follow(scan, *own_view, Guess(), hypothesis);
+  verified.alignments = std::move(outcome.attempt.alignments);
+  outcome.attempt = std::move(verified);
+  outcome.overlap =
+      agreement(scan, *own_view, outcome.attempt.result.target_T_source, kPartnerDistance_m)
+          .overlap;
+  return outcome;
+}
+
+size_t mostInliers(const LoopClosureAttempt& attempt) {
+  size_t most = 0;
+  for (const AlignerOutcome& outcome : attempt.alignments)
+    for (const Hypothesis& hypothesis : outcome.alignment.hypotheses)
+      most = std::max(most, hypothesis.inliers);
+  return most;
+}
+
+/** Accepted ones first, by their overlap; then those with more matches; of equals the first. */
+const ViewOutcome& bestOf(const std::vector<ViewOutcome>& outcomes) {
+  return *std::max_element(outcomes.begin(), outcomes.end(),
+                           [](const ViewOutcome& a, const ViewOutcome& b) {
+                             if (a.attempt.accepted != b.attempt.accepted)
+                               return b.attempt.accepted;
+                             if (a.attempt.accepted) return a.overlap < b.overlap;
+                             return mostInliers(a.attempt) < mostInliers(b.attempt);
+                           });
+}
+
+/** Whether an outcome is another answer than the best one, and about as good. */
+bool isRival(const ViewOutcome& other, const ViewOutcome& best, const AmbiguityOptions& options) {
+  const Pose3 error =
+      best.attempt.result.target_T_source.inverse() * other.attempt.result.target_T_source;
+  const bool differs = error.translation().norm() > options.ambiguity_distance_m ||
+                       rotationAngle(error) * 180.0 / M_PI > options.ambiguity_angle_deg;
+  return differs && other.overlap >= options.ambiguity_overlap * best.overlap;
+}
+
+void refuse(MapRegistration& registration, const std::string& reason) {
+  registration.attempt.accepted = false;
+  registration.attempt.stage = "views of the map";
+  registration.attempt.reason = reason;
+}
+
+}  // namespace
+
+MapRegistration registerOnMap(const PreparedScan& scan, const Vector3f& viewpoint,
+                              const std::vector<Vector3f>& map, const SlamConfig& config) {
+  MapRegistration registration;
+  const Views views(map, rangeOf(scan, viewpoint), config);
+  const LoopClosureComputation computation = config.makeLoopClosureComputation();
+  const std::vector<Vector3f> places = viewpointsIn(map, heightOf(scan, viewpoint));
+  registration.views = places.size();
+  if (places.empty()) {
+    refuse(registration, "nothing in the map looks like a floor with free space above it");
+    return registration;
+  }
+  std::vector<ViewOutcome> outcomes(places.size());
+  tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
+    outcomes[i] = tryView(scan, viewpoint, places[i], views, computation);
+  });
+  const ViewOutcome& best = bestOf(outcomes);
+  registration.attempt = best.attempt;
+  for (const ViewOutcome& outcome : outcomes) {
+    if (!outcome.attempt.accepted) continue;
+    ++registration.accepted;
+    if (isRival(outcome, best, config.registration.ambiguity))
+      refuse(registration, "they lead to different places, which look alike");
+  }
+  if (registration.attempt.accepted && best.overlap < kLeastOverlap)
+    refuse(registration, "they show too little of what the scan sees");
+  return registration;
+}
+
+}  // namespace lamp

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "lamp/registration/LoopClosureComputation.h"
+#include "lamp/slam_app/SlamConfig.h"
+
+namespace lamp {
+
+/** A scan registered onto a map, without a guess. */
+struct MapRegistration {
+  /** In the frame of the map. */
+  LoopClosureAttempt attempt;
+  size_t views = 0;     ///< of the map that were tried
+  size_t accepted = 0;  ///< of these
+};
+
+/** Registers a scan with what a lidar would see from many places in a map. Accepted if the map
+ * shows most of what the scan sees, and no view leads to another pose that is about as good. \param
+ * viewpoint of the scan, in its frame. */
+MapRegistration registerOnMap(const PreparedScan& scan, const Eigen::Vector3f& viewpoint,
+                              const std::vector<Eigen::Vector3f>& map, const SlamConfig& config);
+
+}  // namespace lamp
