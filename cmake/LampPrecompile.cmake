@@ -1,7 +1,11 @@
 # The headers that most of the build time goes to, compiled once for the libraries and once for the
 # tests (which have other compiler flags). Every file still includes what it uses.
-# What is tested is optimised; the tests themselves would only take longer to compile.
+# What is tested is optimised, and checked for undefined behaviour; the tests themselves would only
+# take longer to compile.
 set(LAMP_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+if(LAMP_SANITIZE)
+  list(APPEND LAMP_TEST_OPTIONS -O0 -fno-sanitize=undefined)
+endif()
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/precompile.cpp CONTENT "")  # untouched if it is there
 
 function(lamp_precompile target)
