@@ -65,7 +65,7 @@ class RowReader {
     return c;
   }
 
-  /** From behind the first quote to behind the last. */
+  /** Called behind the opening quote; reads to behind the closing one. */
   void takeQuoted(std::string& cell) {
     const size_t first_line = line_;
     for (int c = take();; c = take()) {

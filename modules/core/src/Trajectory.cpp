@@ -11,7 +11,7 @@ namespace lamp {
 
 namespace {
 
-/** Seconds in a unit of stamps, which the size of the greatest tells: those of our days. */
+/** Seconds in a unit of the stamps: recordings are of our days, so the largest tells the unit. */
 double unitOf(double greatest) {
   if (greatest > 1e17) return 1e-9;
   if (greatest > 1e14) return 1e-6;

@@ -7,7 +7,7 @@ namespace lamp::evaluation {
 
 namespace {
 
-/** With nothing unknown of what a planar robot cannot do. */
+/** With full information on the motions that a planar robot cannot make. */
 Matrix6d inSpace(const Matrix6d& planar) {
   constexpr double kCertain = 1e12;
   Matrix6d information = kCertain * Matrix6d::Identity();

@@ -42,7 +42,7 @@ std::string cell(const Json& run, const std::string& path, const std::string& pa
   return text;
 }
 
-/** Rows below one path of the runs' JSON; none of which no run has a figure. */
+/** Rows below one path of the runs' JSON, without those for which no run has a figure. */
 void appendRows(const Json& runs, const std::string& title, const std::string& path,
                 const std::vector<ReportRow>& rows, std::string& text) {
   for (const ReportRow& row : rows) {

@@ -112,7 +112,7 @@ Json mapsJson(const std::vector<MapEvaluation>& maps) {
   return json;
 }
 
-/** The share that was marked as it should not be (or as it should), with the counts behind it. */
+/** The share that was marked wrongly (or rightly), with the counts behind it. */
 Json countsJson(const char* measure, size_t part, const OctoMapCounts& counts) {
   return {{measure, counts.total() > 0 ? Json(share(part, counts.total())) : Json(nullptr)},
           {"places", counts.total()},

@@ -9,7 +9,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-/** So many points tell the shares to a hundredth. */
+/** This many points give the shares to a hundredth. */
 constexpr size_t kPoints = 2000;
 
 size_t strideOf(const PreparedScan& scan) {

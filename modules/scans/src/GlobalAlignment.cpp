@@ -51,7 +51,7 @@ ConsistencyGraph consistencyGraph(const std::vector<Match>& matches, const Featu
   return graph;
 }
 
-/** Where the guess lets the partner of each keypoint lie. */
+/** Where the partner of each keypoint may lie, given the guess. */
 Whereabouts whereabouts(const Features& source, const UncertainPose& guess,
                         const ConsistencyOptions& options) {
   const double quantile = chiSquareQuantile(options.guess_probability, 3);

@@ -15,9 +15,9 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr size_t kMinMatches = 10;
-/** In the coarse iterations, and in the fine ones, about so many points take part. */
+/** About how many points take part in the coarse iterations, and in the fine ones. */
 constexpr size_t kCoarsePoints = 500, kFinePoints = 1500;
-/** Steps below so many tolerances end the coarse iterations. */
+/** A step smaller than this many tolerances ends the coarse iterations. */
 constexpr double kCoarseTolerance = 10;
 
 /** The pairs of an alignment as it goes on: the partner of the last iteration bounds the search for

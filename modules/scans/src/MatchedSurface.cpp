@@ -16,12 +16,12 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/** So many points tell what the surfaces are. */
+/** This many points are enough to know the surfaces. */
 constexpr size_t kPoints = 1500;
 /** Along axes that are observed better than this, the pattern of a scan makes no difference: down a
  * smooth corridor it alone comes to 0.1. */
 constexpr double kWeak = 0.15;
-/** Squared cosine from which on a normal has a part in holding an axis. */
+/** Least squared cosine between an axis and the normals that help to constrain it. */
 constexpr double kHolds = 0.02;
 
 struct Match {
@@ -57,7 +57,7 @@ IcpNormalEquations sumOf(const std::vector<Match>& matches, const Vector3d& pivo
   return sum.result();
 }
 
-/** Takes out the matches that seem to hold an axis that little else holds, and are no surface. */
+/** Removes matches that are no surface but seem to constrain an axis that little else does. */
 void dropPattern(const IcpNormalEquations& sum, double radius_m, const PreparedScan& target,
                  std::vector<Match>& matches) {
   const Observability observed = observability(sum.H, sum.weights, radius_m);

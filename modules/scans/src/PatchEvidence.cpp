@@ -18,12 +18,12 @@ constexpr double kPartner_m = 0.5, kMargin_m = 0.3;
 /** A lone point is no surface. */
 constexpr int kFewestPoints = 2;
 
-/** Points of a patch, and what is said of them. */
+/** The points of a patch, and what the other scan says of them. */
 struct Counts {
   int points = 0, agreeing = 0, contradicting = 0;
 };
 
-/** A scan as another one is asked of its points. */
+/** A scan that is asked about the points of another one. */
 class Witness {
  public:
   Witness(const PreparedScan& scan, double coarseness)
@@ -37,7 +37,7 @@ class Witness {
       return normal.dot(scan_.normals()[i]) >= kCosineOf45Degrees;
     });
   }
-  /** Whether rays went through, and not past an edge of something. */
+  /** Whether rays passed through the place, and did not just pass by the edge of something. */
   bool hasSeenThrough(const Vector3f& point) const {
     return scan_.freeSpace().at(point, margin_m_) == FreeSpace::Place::kFree &&
            !scan_.tree().anyWithin(point, margin_m_, [](size_t) { return true; });

@@ -54,7 +54,7 @@ Cloud inNeighborlyOrder(const Cloud& cloud) {
   return result;
 }
 
-/** 0 of none. */
+/** 0 without values. */
 float median(std::vector<float> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

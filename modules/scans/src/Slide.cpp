@@ -13,7 +13,7 @@ using Eigen::Vector3f;
 /** A surface is across the axis if its normal is within 40 degrees of it. */
 constexpr float kAcross = 0.77f;
 constexpr size_t kMinPoints = 10, kMaxPoints = 300;
-/** Before a surface by more than this is free space. */
+/** What lies farther than this before a surface is free space. */
 constexpr float kMargin_m = 0.3f;
 /** How far to the side the partner of a point may lie, in scans of coarseness 1, and how thick a
  * surface is along the axis. */

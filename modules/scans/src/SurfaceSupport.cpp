@@ -17,7 +17,7 @@ constexpr size_t kRays = 32;
 /** Sides of a ray, each 60 degrees wide. */
 constexpr size_t kSides = 6;
 constexpr size_t kMinSides = 3, kMinSidesPlanar = 1;
-/** Of the sides where there is a ray, so many must have met the surface. */
+/** How many of the sides where there is a ray must have met the surface. */
 constexpr float kShare = 0.75f;
 /** How far off the tangent plane a surface may lead: this share of the distance (20 degrees), or so
  * many standard deviations of noise where points lie close together. */

@@ -18,7 +18,7 @@ namespace {
   throw std::runtime_error(where + ": " + why);
 }
 
-/** Makes the graph of the lines. */
+/** Builds the graph from the lines. */
 class Builder {
  public:
   Builder(const G2oLines& file, const OdometryEdges& choice) : file_(file), nodes_(file) {
@@ -101,7 +101,7 @@ class Builder {
     add(edge, line);
   }
 
-  /** A position is one at the node's own rotation, of which nothing is known. */
+  /** A position is a pose at the node's own rotation, about which it says nothing. */
   void addPrior(const G2oLine& line) {
     Edge edge = edgeOf(line, EdgeType::kPrior);
     Matrix6d to_file = Matrix6d::Identity();  // tangent at the node's pose to that at the line's

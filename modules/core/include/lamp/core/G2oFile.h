@@ -49,9 +49,9 @@ struct G2oGraph {
  * file (OdometryRule). Edges without any information are left out; information that is indefinite only by
  * rounding is mended; the notes say so, and how many edges repeat others word for word.
  * \param name of the text in messages.
- * \throws std::runtime_error naming the line, and the edge where there is one: for numbers that are
- * none, that are not finite, or too few or many; for an edge from a node to itself; for an
- * information matrix that is not positive semi-definite; for a node with two poses, or fixed
+ * \throws std::runtime_error naming the line, and the edge where there is one: for words that are
+ * no numbers, numbers that are not finite, too few or too many; for an edge from a node to itself;
+ * for an information matrix that is not positive semi-definite; for a node with two poses, or fixed
  * without one; for SE2 mixed with SE3; for listed odometry that is no chain of the file's edges. */
 G2oGraph g2oFromText(const std::string& text, const std::string& name,
                      const OdometryEdges& odometry = {});

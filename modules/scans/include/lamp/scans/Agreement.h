@@ -11,7 +11,7 @@ struct Agreement {
    * the two scans themselves share, whatever their neighbours add. */
   double overlap = 0;
   double residual_m = 0;  ///< r.m.s. point-to-plane distance of points with any partner
-  size_t matches = 0;     ///< those
+  size_t matches = 0;     ///< number of those points
 };
 
 /** How near partners lie in scans of coarseness 1, metres: a little more than their spacing. */

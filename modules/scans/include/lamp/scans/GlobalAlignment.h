@@ -34,7 +34,7 @@ struct UncertainPose {
   Matrix6d covariance = Matrix6d::Identity();  ///< tangent space at the pose
 };
 
-/** Poses that no guess is needed for, by the recipe of TEASER (Yang et al., T-RO 2021): matches of
+/** Poses found without a guess, by the recipe of TEASER (Yang et al., T-RO 2021): matches of
  * descriptors; those that are consistent in pairs, since a rigid motion keeps distances; a maximum
  * clique of them; its pose. The next hypothesis comes from the matches that the pose before leaves
  * over. Most inliers first; none if fewer than `min_inliers` ever agree.

@@ -9,8 +9,8 @@ namespace lamp {
 
 /** How well two scans pin down their relative pose. */
 struct Observability {
-  /** Of moving along each axis of `translations`, and of turning about each of `rotations`, the
-   * other motions being free to adapt: 1 if every point stood in the way, 0 if none. Ascending. */
+  /** How many of the points constrain motion along each axis of `translations`, and about each of
+   * `rotations`, while the other motions adapt: 1 if all do, 0 if none does. Ascending. */
   Eigen::Vector3d translation = Eigen::Vector3d::Zero(), rotation = Eigen::Vector3d::Zero();
   Eigen::Matrix3d translations = Eigen::Matrix3d::Identity(),
                   rotations = Eigen::Matrix3d::Identity();  ///< unit axes, as columns
