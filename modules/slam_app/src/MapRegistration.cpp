@@ -16,13 +16,14 @@ namespace {
 
 using Eigen::Vector3f;
 
-/** A scan shares most of what it sees with one from half this distance. */
-constexpr float kSpacing_m = 4;
-/** Share of what a scan sees that the map of the place must show, but for its edges. Among so many
- * views a scan from elsewhere finds one that it agrees with to half. */
-constexpr double kLeastOverlap = 0.7;
+/** Several views see the place of a scan well enough. */
+constexpr float kSpacing_m = 3;
 /** Large maps are looked at from places that lie farther apart. */
 constexpr size_t kMaxViews = 500;
+/** Among so many views, a scan from elsewhere finds one or two that it agrees with. They do not
+ * agree with one another, or with most of what the scan sees. */
+constexpr size_t kLeastAgreeing = 3;
+constexpr double kLeastOverlap = 0.7;
 
 float quantile(std::vector<float> values, double share) {
   const auto place =
@@ -82,6 +83,12 @@ class Views {
   const SlamConfig& config_;
 };
 
+/** Robots stand as upright in a map as in their own frame, but for slopes. */
+bool isUpright(const Pose3& map_T_scan) {
+  constexpr double kCosineOf45Degrees = 0.7071;
+  return map_T_scan.linear()(2, 2) > kCosineOf45Degrees;
+}
+
 /** What one view led to. */
 struct ViewOutcome {
   LoopClosureAttempt attempt;
@@ -95,6 +102,12 @@ ViewOutcome tryView(const PreparedScan& scan, const Vector3f& viewpoint, const V
   ViewOutcome outcome;
   outcome.attempt = computation.compute(scan, *views.from(place), Guess());
   if (!outcome.attempt.accepted) return outcome;
+  if (!isUpright(outcome.attempt.result.target_T_source)) {
+    outcome.attempt.accepted = false;
+    outcome.attempt.stage = "views of the map";
+    outcome.attempt.reason = "the scan does not stand upright";
+    return outcome;
+  }
   Hypothesis hypothesis;
   hypothesis.target_T_source = outcome.attempt.result.target_T_source;
   const PreparedScanPtr own_view =
@@ -127,13 +140,10 @@ const ViewOutcome& bestOf(const std::vector<ViewOutcome>& outcomes) {
                            });
 }
 
-/** Whether an outcome is another answer than the best one, and about as good. */
-bool isRival(const ViewOutcome& other, const ViewOutcome& best, const AmbiguityOptions& options) {
-  const Pose3 error =
-      best.attempt.result.target_T_source.inverse() * other.attempt.result.target_T_source;
-  const bool differs = error.translation().norm() > options.ambiguity_distance_m ||
-                       rotationAngle(error) * 180.0 / M_PI > options.ambiguity_angle_deg;
-  return differs && other.overlap >= options.ambiguity_overlap * best.overlap;
+bool agree(const ViewOutcome& a, const ViewOutcome& b, const AmbiguityOptions& options) {
+  const Pose3 error = a.attempt.result.target_T_source.inverse() * b.attempt.result.target_T_source;
+  return error.translation().norm() <= options.ambiguity_distance_m &&
+         rotationAngle(error) * 180.0 / M_PI <= options.ambiguity_angle_deg;
 }
 
 void refuse(MapRegistration& registration, const std::string& reason) {
@@ -161,13 +171,21 @@ MapRegistration registerOnMap(const PreparedScan& scan, const Vector3f& viewpoin
   });
   const ViewOutcome& best = bestOf(outcomes);
   registration.attempt = best.attempt;
+  const AmbiguityOptions& options = config.registration.ambiguity;
+  bool alone = true;
   for (const ViewOutcome& outcome : outcomes) {
     if (!outcome.attempt.accepted) continue;
-    ++registration.accepted;
-    if (isRival(outcome, best, config.registration.ambiguity))
-      refuse(registration, "they lead to different places, which look alike");
+    if (agree(outcome, best, options))
+      ++registration.agreeing;
+    else if (outcome.overlap >= options.ambiguity_overlap * best.overlap)
+      alone = false;
   }
-  if (registration.attempt.accepted && best.overlap < kLeastOverlap)
+  if (!best.attempt.accepted) return registration;
+  if (!alone)
+    refuse(registration, "they lead to different places, which look alike");
+  else if (registration.agreeing < kLeastAgreeing)
+    refuse(registration, "too few of them lead to the same pose");
+  else if (best.overlap < kLeastOverlap)
     refuse(registration, "they show too little of what the scan sees");
   return registration;
 }

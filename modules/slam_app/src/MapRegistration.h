@@ -13,7 +13,7 @@ struct MapRegistration {
   /** In the frame of the map. */
   LoopClosureAttempt attempt;
   size_t views = 0;     ///< of the map that were tried
-  size_t accepted = 0;  ///< of these
+  size_t agreeing = 0;  ///< of these, that lead to the same pose as the best one
 };
 
 /** Registers a scan with what a lidar would see from many places in a map. Accepted if the map

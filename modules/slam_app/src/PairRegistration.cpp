@@ -50,7 +50,7 @@ void registerViews(PairRegistration& pair, const PreparedScan& source, const Sla
   pair.attempt = std::move(registration.attempt);
   pair.target.notes.push_back("it was not seen from one place: of " +
                               std::to_string(registration.views) + " views from places in it " +
-                              std::to_string(registration.accepted) + " lead to a pose");
+                              std::to_string(registration.agreeing) + " agree on the best pose");
 }
 
 /** A map has no free space and no sides of walls. */
@@ -85,10 +85,12 @@ PairRegistration registerPair(const std::string& source, const std::string& targ
   const auto prepared_target = prepare(pair.target, config.registration.preparation, pair.planar);
   pair.prepare_target_s = watch.seconds();
   noteMaps(pair);
-  pair.attempt =
-      config.makeLoopClosureComputation().compute(*prepared_source, *prepared_target, Guess());
   const bool onto_map = !pair.target.map.empty() && pair.source.map.empty() && !pair.planar;
-  if (onto_map && !pair.attempt.accepted) registerViews(pair, *prepared_source, config);
+  if (onto_map)
+    registerViews(pair, *prepared_source, config);
+  else
+    pair.attempt =
+        config.makeLoopClosureComputation().compute(*prepared_source, *prepared_target, Guess());
   pair.align_refine_verify_s = watch.seconds();
   return pair;
 }
