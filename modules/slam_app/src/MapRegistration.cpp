@@ -146,10 +146,38 @@ bool agree(const ViewOutcome& a, const ViewOutcome& b, const AmbiguityOptions& o
          rotationAngle(error) * 180.0 / M_PI <= options.ambiguity_angle_deg;
 }
 
+/** How many of the accepted outcomes agree with one, itself included. */
+size_t agreeingWith(const ViewOutcome& one, const std::vector<ViewOutcome>& outcomes,
+                    const AmbiguityOptions& options) {
+  return static_cast<size_t>(
+      std::count_if(outcomes.begin(), outcomes.end(), [&](const ViewOutcome& other) {
+        return other.attempt.accepted && agree(one, other, options);
+      }));
+}
+
 void refuse(MapRegistration& registration, const std::string& reason) {
   registration.attempt.accepted = false;
   registration.attempt.stage = "views of the map";
   registration.attempt.reason = reason;
+}
+
+/** Whether the best outcome is to be believed. */
+void judge(const ViewOutcome& best, const std::vector<ViewOutcome>& outcomes,
+           const AmbiguityOptions& options, MapRegistration& registration) {
+  registration.agreeing = agreeingWith(best, outcomes, options);
+  if (!best.attempt.accepted) return;
+  const bool has_rival =
+      std::any_of(outcomes.begin(), outcomes.end(), [&](const ViewOutcome& outcome) {
+        return outcome.attempt.accepted && !agree(outcome, best, options) &&
+               outcome.overlap >= options.ambiguity_overlap * best.overlap &&
+               agreeingWith(outcome, outcomes, options) >= kLeastAgreeing;
+      });
+  if (has_rival)
+    refuse(registration, "they lead to different places, which look alike");
+  else if (registration.agreeing < kLeastAgreeing)
+    refuse(registration, "too few of them lead to the same pose");
+  else if (best.overlap < kLeastOverlap)
+    refuse(registration, "they show too little of what the scan sees");
 }
 
 }  // namespace
@@ -171,22 +199,7 @@ MapRegistration registerOnMap(const PreparedScan& scan, const Vector3f& viewpoin
   });
   const ViewOutcome& best = bestOf(outcomes);
   registration.attempt = best.attempt;
-  const AmbiguityOptions& options = config.registration.ambiguity;
-  bool alone = true;
-  for (const ViewOutcome& outcome : outcomes) {
-    if (!outcome.attempt.accepted) continue;
-    if (agree(outcome, best, options))
-      ++registration.agreeing;
-    else if (outcome.overlap >= options.ambiguity_overlap * best.overlap)
-      alone = false;
-  }
-  if (!best.attempt.accepted) return registration;
-  if (!alone)
-    refuse(registration, "they lead to different places, which look alike");
-  else if (registration.agreeing < kLeastAgreeing)
-    refuse(registration, "too few of them lead to the same pose");
-  else if (best.overlap < kLeastOverlap)
-    refuse(registration, "they show too little of what the scan sees");
+  judge(best, outcomes, config.registration.ambiguity, registration);
   return registration;
 }
 

@@ -16,9 +16,9 @@ struct MapRegistration {
   size_t agreeing = 0;  ///< of these, that lead to the same pose as the best one
 };
 
-/** Registers a scan with what a lidar would see from many places in a map. Accepted if the map
- * shows most of what the scan sees, and no view leads to another pose that is about as good. \param
- * viewpoint of the scan, in its frame. */
+/** Registers a scan with what a lidar would see from many places in a map, z up in both. Accepted
+ * if several views lead to one pose, from which the map shows most of what the scan sees, and to no
+ * other that is about as good. \param viewpoint of the scan, in its frame. */
 MapRegistration registerOnMap(const PreparedScan& scan, const Eigen::Vector3f& viewpoint,
                               const std::vector<Eigen::Vector3f>& map, const SlamConfig& config);
 
