@@ -95,16 +95,20 @@ class PlateMatcher {
   std::optional<StartPrior> match(std::vector<Vector3d> near) const {
     Pose3 pose = poseOfPoints(near, plates_);
     if (leanOf(pose, Vector3d::UnitZ()) > kMostLeanRad || isBehind(pose)) return std::nullopt;
-    std::optional<PlatePose> result;
+    std::vector<PlateMiddle> seen;
+    PlatePose result;
     for (int i = 0; i < kRefinements; ++i) {
-      const auto seen = middles(near, pose);
-      if (!seen) return std::nullopt;
-      result = poseOfPlates(*seen, plates_, upFor(pose), pose);
-      pose = result->pose.world_T_base;
+      seen = middles(near, pose);
+      if (seen.size() < kPlates) return std::nullopt;
+      result = poseOfPlates(seen, plates_, upFor(pose), pose);
+      pose = result.pose.world_T_base;
     }
-    if (result->chi_square > chiSquareQuantile(kConfidence, result->degrees_of_freedom))
+    const bool fit = std::all_of(seen.begin(), seen.end(), [](const PlateMiddle& middle) {
+      return middle.misfit <= kMostMisfit;
+    });
+    if (!fit || result.chi_square > chiSquareQuantile(kConfidence, result.degrees_of_freedom))
       return std::nullopt;
-    return moved(result->pose);
+    return moved(result.pose);
   }
 
  private:
@@ -135,15 +139,15 @@ class PlateMatcher {
     return {world_T_base.linear().transpose() * world_R_plate_, {}, plate_m_};
   }
 
-  std::optional<std::vector<PlateMiddle>> middles(const std::vector<Vector3d>& near,
-                                                  const Pose3& world_T_base) const {
+  /** Of the plates that any rays hit. */
+  std::vector<PlateMiddle> middles(const std::vector<Vector3d>& near,
+                                   const Pose3& world_T_base) const {
     PlateFrame frame = frameAt(world_T_base);
     std::vector<PlateMiddle> result;
     for (const Vector3d& point : near) {
       frame.middles = {point};
       const auto middle = plateMiddle(rays_, frame);
-      if (!middle || middle->misfit > kMostMisfit) return std::nullopt;
-      result.push_back(*middle);
+      if (middle) result.push_back(*middle);
     }
     return result;
   }

@@ -235,10 +235,11 @@ void WorldBuilder::addGate() {
                  {kBarM, kBarM, kHeightM}, Material::kMetal));
   addSolid(box(world_.world_T_gate * poseAt({0, 0, kHeightM}, 0), {kBarM, kWidthM, kBarM},
                Material::kMetal));
-  // Not symmetric, so that they tell left from right.
+  // Not symmetric, so that they tell left from right, and as low as a lidar with a field of view of
+  // 15 degrees upwards sees from where robots wait.
   for (const Vector3d& middle :
        {Vector3d(-0.08, 0.5 * kWidthM, 1.5), Vector3d(-0.08, -0.5 * kWidthM, 0.9),
-        Vector3d(-0.08, 0.3, 1.95)}) {
+        Vector3d(-0.08, 0.3, 1.7)}) {
     const Pose3 facing_robots = world_.world_T_gate * poseAt(middle, M_PI);
     addSolid(plate(facing_robots, {kPlateM, kPlateM}, Material::kReflector));
     world_.plates.push_back(facing_robots.translation());
