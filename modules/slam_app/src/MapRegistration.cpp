@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/** Several views see the place of a scan well enough. */
+/** So near to one another that several views show what a scan saw. */
 constexpr float kSpacing_m = 3;
 /** Large maps are looked at from places that lie farther apart. */
 constexpr size_t kMaxViews = 500;
@@ -32,14 +32,14 @@ float quantile(std::vector<float> values, double share) {
   return *place;
 }
 
-/** Of nearly all points. */
+/** How far nearly all points lie from the sensor, metres. */
 float rangeOf(const PreparedScan& scan, const Vector3f& viewpoint) {
   std::vector<float> ranges;
   for (const Vector3f& point : scan.points()) ranges.push_back((point - viewpoint).norm());
   return quantile(std::move(ranges), 0.98);
 }
 
-/** Of the sensor above the floor around it; a usual one where the scan does not show it. */
+/** Height of the sensor above the floor around it, metres; a usual one where no floor is seen. */
 float heightOf(const PreparedScan& scan, const Vector3f& viewpoint) {
   constexpr float kAround_m = 5, kUsual_m = 1, kLowest_m = 0.2f, kHighest_m = 3;
   std::vector<float> depths;
@@ -53,8 +53,9 @@ float heightOf(const PreparedScan& scan, const Vector3f& viewpoint) {
 
 std::vector<Vector3f> viewpointsIn(const std::vector<Vector3f>& map, float height_m) {
   float spacing_m = kSpacing_m;
-  std::vector<Vector3f> places = standpoints(map, height_m, spacing_m);
-  while (places.size() > kMaxViews) places = standpoints(map, height_m, spacing_m *= 2);
+  std::vector<Vector3f> places = standpoints(map, height_m, spacing_m, kMaxViews + 1);
+  while (places.size() > kMaxViews)
+    places = standpoints(map, height_m, spacing_m *= 2, kMaxViews + 1);
   return places;
 }
 
@@ -161,7 +162,7 @@ void refuse(MapRegistration& registration, const std::string& reason) {
   registration.attempt.reason = reason;
 }
 
-/** Whether the best outcome is to be believed. */
+/** Refuses the best outcome unless it is to be believed. */
 void judge(const ViewOutcome& best, const std::vector<ViewOutcome>& outcomes,
            const AmbiguityOptions& options, MapRegistration& registration) {
   registration.agreeing = agreeingWith(best, outcomes, options);

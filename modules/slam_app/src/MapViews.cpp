@@ -76,12 +76,13 @@ NearestRanges::Direction NearestRanges::directionOf(const Vector3f& ray) {
           static_cast<int>(std::floor(direction.z()))};
 }
 
-std::vector<Vector3f> standpoints(const std::vector<Vector3f>& map, float height_m,
-                                  float spacing_m) {
+std::vector<Vector3f> standpoints(const std::vector<Vector3f>& map, float height_m, float spacing_m,
+                                  size_t max) {
   std::set<Cell> filled;
   for (const Vector3f& point : map) filled.insert(cellOf(point));
   std::vector<Vector3f> places;
   for (const Cell& floor : floorsOf(filled)) {
+    if (places.size() == max) break;
     const Vector3f place =
         kCell_m * Vector3f(static_cast<float>(floor[0]) + 0.5f, static_cast<float>(floor[1]) + 0.5f,
                            static_cast<float>(floor[2]) + 0.5f) +

@@ -25,9 +25,10 @@ class NearestRanges {
 
 /** Places in a map where a robot may have stood: above what looks like a floor with free space over
  * it, in the middle of passages rather than at their sides, at least `spacing_m` apart.
- * \param height_m of the sensor above the floor; z is up. The same points give the same places. */
+ * \param height_m of the sensor above the floor; z is up.
+ * \param max how many places at most. The same points give the same places. */
 std::vector<Eigen::Vector3f> standpoints(const std::vector<Eigen::Vector3f>& map, float height_m,
-                                         float spacing_m);
+                                         float spacing_m, size_t max);
 
 /** The points of a map that a lidar would see from a place, up to a range (metres). */
 std::vector<Eigen::Vector3f> visibleFrom(const Eigen::Vector3f& viewpoint,

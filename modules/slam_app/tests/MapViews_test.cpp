@@ -29,7 +29,7 @@ std::vector<Vector3f> twoRooms() {
 }  // namespace
 
 TEST(MapViews, StandpointsAreApartAboveTheFloorAndInBothRooms) {
-  const auto places = standpoints(twoRooms(), 0.8f, 3);
+  const auto places = standpoints(twoRooms(), 0.8f, 3, 100);
   int left = 0, right = 0;
   for (size_t i = 0; i < places.size(); ++i) {
     for (size_t k = 0; k < i; ++k) EXPECT_GE((places[i] - places[k]).norm(), 3);
@@ -41,8 +41,12 @@ TEST(MapViews, StandpointsAreApartAboveTheFloorAndInBothRooms) {
   EXPECT_GE(right, 4);
 }
 
+TEST(MapViews, ThereAreNoMoreStandpointsThanAskedFor) {
+  EXPECT_EQ(standpoints(twoRooms(), 0.8f, 1, 5).size(), 5u);
+}
+
 TEST(MapViews, TheFirstStandpointOnAFloorIsInTheOpen) {
-  const auto places = standpoints(twoRooms(), 0.8f, 3);
+  const auto places = standpoints(twoRooms(), 0.8f, 3, 100);
   const auto place = std::find_if(places.begin(), places.end(), [](auto& p) { return p.z() < 2; });
   ASSERT_NE(place, places.end());
   EXPECT_GT(place->y(), 1.5);
