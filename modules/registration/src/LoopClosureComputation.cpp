@@ -17,6 +17,7 @@ void AmbiguityOptions::visit(OptionVisitor& v) {
     "of two different answers the one with more overlap is taken, unless the other reaches this "
     "fraction of it: then the pair is refused as ambiguous",
     kShare);
+  look_alikes.visit(v);
 }
 
 LoopClosureComputation::LoopClosureComputation(
@@ -39,6 +40,7 @@ LoopClosureAttempt LoopClosureComputation::compute(const PreparedScan& source,
     if (alignments.size() == 1 || followed.steps > best.steps) best = std::move(followed);
     if (best.attempt.accepted) break;
   }
+  if (best.attempt.accepted) refuseIfAlike(best.attempt, source, target, guess);
   best.attempt.alignments = std::move(alignments);
   return std::move(best.attempt);
 }
@@ -108,6 +110,28 @@ bool LoopClosureComputation::settle(Followed& best, Followed& other, const Prepa
   const double of_best = overlap(best), of_other = overlap(other);
   if (of_other > of_best) std::swap(best, other);
   return std::min(of_best, of_other) < ambiguity_.ambiguity_overlap * std::max(of_best, of_other);
+}
+
+void LoopClosureComputation::refuseIfAlike(LoopClosureAttempt& found, const PreparedScan& source,
+                                           const PreparedScan& target, const Guess& guess) const {
+  const std::vector<Pose3> starts =
+      lookAlikeStarts(found.result, guess, source, target, ambiguity_.look_alikes);
+  if (starts.empty()) return;
+  const Fit fit = fitOf(source, target, found.result.target_T_source);
+  std::vector<RegistrationResult> seen{found.result};
+  for (const Pose3& start : starts) {
+    Hypothesis hypothesis;
+    hypothesis.target_T_source = start;
+    const RegistrationResult other = refiner_->refine(source, target, hypothesis);
+    const auto isNew = [&](const RegistrationResult& before) { return differ(before, other); };
+    if (!other.converged || !std::all_of(seen.begin(), seen.end(), isNew)) continue;
+    seen.push_back(other);
+    if (!isAsGood(fitOf(source, target, other.target_T_source), fit)) continue;
+    found.accepted = false;
+    found.stage = "look_alikes";
+    found.reason = "ambiguous";
+    return;
+  }
 }
 
 bool LoopClosureComputation::differ(const RegistrationResult& a,

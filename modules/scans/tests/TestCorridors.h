@@ -32,10 +32,35 @@ struct SmoothCorridor {
   }
 };
 
+/** The same, of rectangular section, with a pillar of 0.5 m on both sides every 3 m. */
+struct PillaredCorridor {
+  double end_m = std::numeric_limits<double>::infinity();  ///< where a wall closes it
+
+  double range(double x_m, const Eigen::Vector3d& ray) const {
+    constexpr double kPeriod_m = 3, kSight_m = 30;
+    double range = SmoothCorridor{false, end_m}.range(x_m, ray);
+    for (double x = std::floor((x_m - kSight_m) / kPeriod_m) * kPeriod_m; x < x_m + kSight_m;
+         x += kPeriod_m)
+      for (const double y : {-2.0, 1.5})
+        range = std::min(range, ofBox({x - x_m, y, -1}, {x - x_m + 0.5, y + 0.5, 2}, ray));
+    return range;
+  }
+
+ private:
+  /** From the origin, outside the box; infinite if the ray passes. */
+  static double ofBox(const Eigen::Array3d& low, const Eigen::Array3d& high,
+                      const Eigen::Array3d& ray) {
+    const Eigen::Array3d to_low = low / ray, to_high = high / ray;
+    const double enter = to_low.min(to_high).maxCoeff(), leave = to_low.max(to_high).minCoeff();
+    return enter > 0 && enter < leave ? enter : std::numeric_limits<double>::infinity();
+  }
+};
+
 /** What a level lidar at x on the corridor's axis sees, in its own frame, thinned as the front end
  * thins scans. */
-inline std::vector<Eigen::Vector3f> scanOf(const SmoothCorridor& corridor, const TestLidar& lidar,
-                                           double x_m, unsigned seed) {
+template <class Corridor = SmoothCorridor>
+std::vector<Eigen::Vector3f> scanOf(const Corridor& corridor, const TestLidar& lidar, double x_m,
+                                    unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> deviation(0, 1);
   Scan scan;

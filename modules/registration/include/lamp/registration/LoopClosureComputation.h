@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lamp/registration/InitialAligner.h"
+#include "lamp/registration/LookAlikes.h"
 #include "lamp/registration/Refiner.h"
 #include "lamp/registration/Verifier.h"
 
@@ -15,6 +16,7 @@ struct AmbiguityOptions {
   double ambiguity_distance_m = 1.0;
   double ambiguity_angle_deg = 10.0;
   double ambiguity_overlap = 0.8;
+  LookAlikeOptions look_alikes;
 
   void visit(OptionVisitor& v);
 };
@@ -72,6 +74,9 @@ class LoopClosureComputation {
                   const PreparedScan& target, const Guess& guess) const;
   Followed refineAndVerify(const PreparedScan& source, const PreparedScan& target,
                            const Guess& guess, const Hypothesis& hypothesis) const;
+  /** Refuses an accepted attempt if the guess allows another pose that fits as well. */
+  void refuseIfAlike(LoopClosureAttempt& found, const PreparedScan& source,
+                     const PreparedScan& target, const Guess& guess) const;
   bool differ(const RegistrationResult& a, const RegistrationResult& b) const;
   /** Keeps the better of two accepted attempts that differ. \return whether one is. */
   bool settle(Followed& best, Followed& other, const PreparedScan& source,
