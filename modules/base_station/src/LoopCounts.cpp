@@ -16,6 +16,23 @@ LoopCounts countLoops(const BaseStation& base) {
   return counts;
 }
 
+KeptLoops keptLoops(const PoseGraph& graph, const std::vector<FrameAgreement>& frames) {
+  const auto isApart = [&](const Edge& edge) {
+    return std::any_of(frames.begin(), frames.end(), [&](const FrameAgreement& agreement) {
+      return !agreement.joined &&
+             std::minmax(agreement.a, agreement.b) == std::minmax(edge.from.robot, edge.to.robot);
+    });
+  };
+  KeptLoops counts;
+  for (const Edge& edge : graph.edges()) {
+    if (edge.type != EdgeType::kLoopClosure || edge.verdict == Verdict::kPending || isApart(edge))
+      continue;
+    ++counts.loops;
+    counts.kept += edge.verdict == Verdict::kInlier;
+  }
+  return counts;
+}
+
 ComponentLoops countLoops(const PoseGraph& graph, const Component& component) {
   ComponentLoops loops;
   for (const Edge& edge : graph.edges()) {

@@ -15,6 +15,7 @@
 #include "TeamArrivals.h"
 #include "WorldFrame.h"
 #include "lamp/base_station/BaseStation.h"
+#include "lamp/base_station/LoopCounts.h"
 #include "lamp/core/Progress.h"
 #include "lamp/input/RawlogSource.h"
 #include "lamp/slam_app/RunWriter.h"
@@ -102,6 +103,16 @@ std::string explainEmptyRun(const std::vector<FrontEndReport>& reports, const Ro
   return text;
 }
 
+/** A back end that hardly believes any loop closure has got wrong ones, or wrong odometry. */
+std::vector<std::string> warningsOf(const BaseStation& base) {
+  const KeptLoops loops = keptLoops(base.graph(), base.lastReport().frames);
+  if (base.optimizations() == 0 || !loops.tooFew()) return {};
+  return {"the back end kept only " + std::to_string(loops.kept) + " of " +
+          std::to_string(loops.loops) +
+          " verified loop closures: the map is hardly better than odometry. Most loop closures are "
+          "wrong, or odometry is much worse than its covariances state (docs/pose_graph.md)"};
+}
+
 }  // namespace
 
 SlamRun::SlamRun(SlamConfig config, Job job, const std::atomic<bool>& interrupted)
@@ -170,13 +181,15 @@ SlamRun::Outcome SlamRun::run() {
     front_end.join();
   }
 
-  const RunResult result{config_,           robots,       base_station,   team.reports(),
-                         source.warnings(), interrupted_, world_p_origin_};
+  RunResult result{config_,           robots,       base_station,   team.reports(),
+                   source.warnings(), interrupted_, world_p_origin_};
   if (base_station.graph().nodes().empty() && interrupted_)
     throw std::runtime_error("interrupted before the first key node: there is nothing to map");
   if (base_station.graph().nodes().empty())
-    throw std::runtime_error(explainEmptyRun(result.reports, robots, result.input_warnings));
-  warn(result.input_warnings);
+    throw std::runtime_error(explainEmptyRun(result.reports, robots, result.warnings));
+  for (std::string& warning : warningsOf(base_station))
+    result.warnings.push_back(std::move(warning));
+  warn(result.warnings);
   for (const FrontEndReport& report : result.reports)
     warn(report.warnings, "robot '" + robots.name(report.robot) + "': ");
   Outcome outcome{describeRun(folder, result), {}};

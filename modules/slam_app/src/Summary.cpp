@@ -144,7 +144,7 @@ Json summarize(const RunResult& result, const std::vector<std::string>& not_writ
   const auto components = base.graph().components();
   for (size_t rank = 0; rank < components.size(); ++rank)
     json["components"].push_back(componentSummary(result, components[rank], rank));
-  json["warnings"] = result.input_warnings;
+  json["warnings"] = result.warnings;
   json["not_written"] = not_written;
   return json;
 }

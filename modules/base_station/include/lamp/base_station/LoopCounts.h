@@ -20,6 +20,16 @@ struct ComponentLoops {
 
 LoopCounts countLoops(const BaseStation& base_station);
 
+/** Verified loop closures that the last optimisation was free to keep, and how many it kept. Those
+ * between robots whose frames are not joined are left out: they wait for more evidence. */
+struct KeptLoops {
+  size_t loops = 0, kept = 0;
+
+  /** Less than a tenth, of so many that a tenth is at least one. */
+  bool tooFew() const { return loops >= 10 && 10 * kept < loops; }
+};
+KeptLoops keptLoops(const PoseGraph& graph, const std::vector<FrameAgreement>& frames);
+
 /** Edges beside odometry, priors and loop closures. */
 struct MeasurementCounts {
   size_t edges = 0, inliers = 0;

@@ -26,7 +26,7 @@ struct RunResult {
   const RobotTable& robots;
   const BaseStation& base_station;
   std::vector<FrontEndReport> reports;
-  std::vector<std::string> input_warnings;
+  std::vector<std::string> warnings;  ///< of the input, and of the run as a whole
   bool interrupted = false;
   /** World coordinates of the origin of the local frame that the base station works in. */
   Eigen::Vector3d world_p_origin = Eigen::Vector3d::Zero();
