@@ -31,15 +31,17 @@ struct GncMemory {
 /** Graduated non-convexity over the loop closures; odometry and priors are known inliers.
  *
  * Yang, Antonante, Tzoumas, Carlone, "Graduated Non-Convexity for Robust Spatial Perception: From
- * Non-Minimal Solvers to Global Outlier Rejection", RA-L 2020. Unlike there, each round starts
- * again from initialGuess(): a start at the last round's solution, which outliers have distorted,
- * loses true loops. A last stage alternates solves with verdicts at the threshold until they
- * agree, the last solve in full. The threshold of a loop is the quantile of the chi-square
- * distribution with as many degrees of freedom as its information matrix has rank.
+ * Non-Minimal Solvers to Global Outlier Rejection", RA-L 2020. The first start is initialGuess(),
+ * or chordalGuess() if that leads to a lower truncated cost. Rounds go on from the last solution;
+ * where that fits worse than the stated covariances let it, the guess is tried, too. A last stage
+ * alternates solves with verdicts at the threshold until they agree, the last solve in full. The
+ * threshold of a loop is the quantile of the chi-square distribution with as many degrees of
+ * freedom as its information matrix has rank.
  *
  * A round ends the graduation only if no weight has changed in it and the cost is the robust one
- * for all residuals, or for all but those next to the threshold; not because the cost stays, nor
- * because all weights are 0 or 1.
+ * for all residuals, or for all but those next to the threshold, or if it is the second in which
+ * just those loops have a weight that agree; not because the cost stays, nor because all weights
+ * are 0 or 1.
  *
  * The last stage also rejects loops without which the truncated cost is lower
  * (PoseProblem::leaveOneOut2()), though their own residuals may be small, and takes those in again

@@ -19,7 +19,9 @@ struct OdometryGateOptions {
  *
  * Odometry may be worse than it says: its covariances are first scaled, up to a limit and never
  * down, so that nearly as many loops fit it as with any scale, false ones not counted. If a tenth
- * of the loops, and not few, ask for much, the optimisation is to take it so, too. */
+ * of the loops, and not few, ask for much, the optimisation is to take it so, too. Loops that
+ * neighbours bear out tell the scale, one for each pair of places, or all where those are few. With
+ * a scale above 1 what is rejected waits for the solution (Admission::waiting). */
 class OdometryGate : public OutlierRejection {
   DEFINE_MRPT_OBJECT(OdometryGate, lamp)
 
