@@ -122,7 +122,7 @@ void BaseStation::computeRound(size_t budget, const std::atomic<bool>& interrupt
       if (interrupted) return;
       const PreparedScanPtr source = scans_.get(scans_.source(candidates[i]));
       const PreparedScanPtr target = scans_.get(scans_.target(candidates[i]));
-      attempts[i] = computation_.compute(*source, *target, guesses[i]);
+      attempts[i] = computation_.compute(*source, *target, guesses[i], candidates[i].certain_guess);
     });
   }
   for (size_t i = 0; i < candidates.size(); ++i)

@@ -1,7 +1,7 @@
 #include "lamp/loop_candidates/RadiusGenerators.h"
 
 #include "lamp/loop_candidates/GlobalSearch.h"
-#include "lamp/loop_candidates/PlanarNeighbors.h"
+#include "lamp/loop_candidates/Neighbors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,7 +123,7 @@ void registerAllClasses_lamp_loop_candidates() {
   mrpt::rtti::registerClass(CLASS_ID(FixedRadius));
   mrpt::rtti::registerClass(CLASS_ID(AdaptiveRadius));
   mrpt::rtti::registerClass(CLASS_ID(GlobalSearch));
-  mrpt::rtti::registerClass(CLASS_ID(PlanarNeighbors));
+  mrpt::rtti::registerClass(CLASS_ID(Neighbors));
 }
 
 }  // namespace lamp

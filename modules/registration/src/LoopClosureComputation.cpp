@@ -31,10 +31,12 @@ LoopClosureComputation::LoopClosureComputation(
 
 LoopClosureAttempt LoopClosureComputation::compute(const PreparedScan& source,
                                                    const PreparedScan& target,
-                                                   const Guess& guess) const {
+                                                   const Guess& guess,
+                                                   bool certain_guess) const {
   Followed best;
   std::vector<AlignerOutcome> alignments;
   for (const auto& aligner : aligners_) {
+    if (certain_guess && !alignments.empty()) break;
     alignments.push_back({aligner->getLoggerName(), aligner->align(source, target, guess)});
     Followed followed = follow(alignments.back(), source, target, guess);
     if (alignments.size() == 1 || followed.steps > best.steps) best = std::move(followed);

@@ -13,8 +13,9 @@ namespace lamp {
  * registration; `to` the newer one, its source. */
 struct LoopClosureCandidate {
   KeyNodeId from, to;
-  std::string generator;  ///< the stage that proposed it
-  double priority = 0;    ///< set by the prioritizer; larger is sooner
+  std::string generator;       ///< the stage that proposed it
+  double priority = 0;         ///< set by the prioritizer; larger is sooner
+  bool certain_guess = false;  ///< the graph's guess is good: none is to be searched for
 };
 
 /** A relative pose to start from, with what the graph knows of its error. */

@@ -51,9 +51,9 @@ class LoopClosureComputation {
                          const AmbiguityOptions& ambiguity);
 
   /** Of several refused hypotheses the outcome is that of the one that came farthest. Safe to call
-   * from many threads. */
+   * from many threads. \param certain_guess asks the first aligner only. */
   LoopClosureAttempt compute(const PreparedScan& source, const PreparedScan& target,
-                             const Guess& guess) const;
+                             const Guess& guess, bool certain_guess = false) const;
   /** One hypothesis, refined and verified. Safe to call from many threads. */
   LoopClosureAttempt follow(const PreparedScan& source, const PreparedScan& target,
                             const Guess& guess, const Hypothesis& hypothesis) const {

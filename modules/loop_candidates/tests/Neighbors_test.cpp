@@ -1,4 +1,4 @@
-#include "lamp/loop_candidates/PlanarNeighbors.h"
+#include "lamp/loop_candidates/Neighbors.h"
 
 #include <gtest/gtest.h>
 
@@ -20,14 +20,14 @@ PoseGraph line(bool planar) {
 
 std::vector<KeyNodeId> older(const PoseGraph& graph, KeyNodeId current) {
   std::vector<KeyNodeId> ids;
-  for (const LoopClosureCandidate& c : PlanarNeighbors().propose(graph, current)) {
+  for (const LoopClosureCandidate& c : Neighbors().propose(graph, current)) {
     EXPECT_EQ(c.to, current);
     ids.push_back(c.from);
   }
   return ids;
 }
 
-TEST(PlanarNeighbors, AreThoseOfTheSameRobotJustBefore) {
+TEST(Neighbors, AreThoseOfTheSameRobotJustBefore) {
   const RobotId robot{1};
   const PoseGraph graph = line(true);
   EXPECT_EQ(older(graph, {robot, 5}),
@@ -36,8 +36,14 @@ TEST(PlanarNeighbors, AreThoseOfTheSameRobotJustBefore) {
   EXPECT_TRUE(older(graph, {robot, 0}).empty());
 }
 
-TEST(PlanarNeighbors, AreNotForRobotsInSpace) {
-  EXPECT_TRUE(older(line(false), {RobotId{0}, 5}).empty());
+TEST(Neighbors, AreFewerForRobotsInSpace) {
+  const RobotId robot{0};
+  EXPECT_EQ(older(line(false), {robot, 5}), (std::vector<KeyNodeId>{{robot, 4}, {robot, 3}}));
+}
+
+TEST(Neighbors, NeedNoSearchBeyondOdometry) {
+  for (const LoopClosureCandidate& c : Neighbors().propose(line(false), {RobotId{0}, 5}))
+    EXPECT_TRUE(c.certain_guess);
 }
 
 }  // namespace
