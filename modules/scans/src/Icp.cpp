@@ -63,35 +63,6 @@ class Matcher {
   std::vector<size_t> partners_;
 };
 
-/** Gauss-Newton step; in the plane only x, y and yaw move. Slight damping leaves directions that
- * the scans do not observe where they are. */
-Vector6d solveStep(const IcpNormalEquations& equations, bool planar) {
-  constexpr double kDamping = 1e-6;
-  Vector6d step = Vector6d::Zero();
-  if (!planar) {
-    Matrix6d H = equations.H;
-    H.diagonal() *= 1.0 + kDamping;
-    H.diagonal().array() += kDamping;
-    step = -H.ldlt().solve(equations.g);
-  } else {
-    Matrix3d H;
-    Vector3d g;
-    for (int a = 0; a < 3; ++a) {
-      g[a] = equations.g[kPlanarAxes[a]];
-      for (int b = 0; b < 3; ++b) H(a, b) = equations.H(kPlanarAxes[a], kPlanarAxes[b]);
-    }
-    H.diagonal().array() += kDamping;
-    const Vector3d reduced = -H.ldlt().solve(g);
-    for (int a = 0; a < 3; ++a) step[kPlanarAxes[a]] = reduced[a];
-  }
-  return step;
-}
-
-/** Moves the pose by a step about the pivot, in the target's axes. */
-Pose3 movedAbout(const Vector3d& pivot, const Vector6d& step, const Pose3& T) {
-  return normalized(Eigen::Translation3d(pivot) * expSE3(step) * Eigen::Translation3d(-pivot) * T);
-}
-
 /** The options for scans whose points lie farther apart. */
 IcpOptions scaled(IcpOptions options, double coarseness) {
   options.start_correspondence_m *= coarseness;

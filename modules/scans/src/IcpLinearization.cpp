@@ -1,5 +1,7 @@
 #include "IcpLinearization.h"
 
+#include <Eigen/Cholesky>
+
 namespace lamp {
 
 namespace {
@@ -32,6 +34,32 @@ Matrix6d symmetric(const Matrix6d& upper) {
 }
 
 }  // namespace
+
+Vector6d solveStep(const IcpNormalEquations& equations, bool planar) {
+  constexpr double kDamping = 1e-6;
+  Vector6d step = Vector6d::Zero();
+  if (!planar) {
+    Matrix6d H = equations.H;
+    H.diagonal() *= 1.0 + kDamping;
+    H.diagonal().array() += kDamping;
+    step = -H.ldlt().solve(equations.g);
+  } else {
+    Matrix3d H;
+    Vector3d g;
+    for (int a = 0; a < 3; ++a) {
+      g[a] = equations.g[kPlanarAxes[a]];
+      for (int b = 0; b < 3; ++b) H(a, b) = equations.H(kPlanarAxes[a], kPlanarAxes[b]);
+    }
+    H.diagonal().array() += kDamping;
+    const Vector3d reduced = -H.ldlt().solve(g);
+    for (int a = 0; a < 3; ++a) step[kPlanarAxes[a]] = reduced[a];
+  }
+  return step;
+}
+
+Pose3 movedAbout(const Vector3d& pivot, const Vector6d& step, const Pose3& T) {
+  return normalized(Eigen::Translation3d(pivot) * expSE3(step) * Eigen::Translation3d(-pivot) * T);
+}
 
 Linearization::Linearization(IcpMetric metric, double plane_thickness, double kernel_m)
     : plane_to_plane_(metric == IcpMetric::kPlaneToPlane),

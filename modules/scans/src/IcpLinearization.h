@@ -14,6 +14,13 @@ struct IcpNormalEquations {
   size_t matches = 0;
 };
 
+/** Gauss-Newton step; in the plane only x, y and yaw move. Slight damping leaves directions that the
+ * scans do not observe where they are. */
+Vector6d solveStep(const IcpNormalEquations& equations, bool planar);
+
+/** Moves the pose by a step about the pivot, in the target's axes. */
+Pose3 movedAbout(const Eigen::Vector3d& pivot, const Vector6d& step, const Pose3& T);
+
 /** Sums the normal equations over matched points. */
 class Linearization {
  public:

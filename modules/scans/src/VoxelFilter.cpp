@@ -27,6 +27,7 @@ struct SensorCellHash {
 struct Sum {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double intensity = 0;
+  double time = 0;
   int count = 0;
   uint8_t sensor = 0;
 };
@@ -45,6 +46,7 @@ Scan voxelFilter(const Scan& scan, double leaf_m) {
     Sum& sum = sums[found->second];
     sum.point += scan.points[i].cast<double>();
     if (scan.hasIntensity()) sum.intensity += scan.intensity[i];
+    if (scan.hasTimes()) sum.time += scan.time[i];
     ++sum.count;
     sum.sensor = scan.sensor[i];
   }
@@ -55,6 +57,7 @@ Scan voxelFilter(const Scan& scan, double leaf_m) {
     result.points.push_back((sum.point / sum.count).cast<float>());
     if (scan.hasIntensity())
       result.intensity.push_back(static_cast<float>(sum.intensity / sum.count));
+    if (scan.hasTimes()) result.time.push_back(static_cast<float>(sum.time / sum.count));
     result.sensor.push_back(sum.sensor);
   }
   return result;

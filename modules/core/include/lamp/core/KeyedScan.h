@@ -17,8 +17,8 @@ struct SensorOrigin {
 /** Point cloud of one scan in the robot's base frame at the scan's stamp.
  *
  * `intensity` and `time` are empty or as long as `points`; `sensor` is always as long as `points`
- * and indexes `sensors`, so that maps can carve free space along the true rays. A keyed scan, whose
- * points are means over a voxel, has no times.
+ * and indexes `sensors`, so that maps can carve free space along the true rays. A keyed scan, which
+ * stands for one instant, has no times.
  */
 struct Scan {
   std::vector<Eigen::Vector3f> points;  ///< base frame, metres

@@ -5,7 +5,7 @@
 
 #include "lamp/core/Stage.h"
 #include "lamp/registration/InitialAligner.h"
-#include "lamp/registration/RegistrationInformation.h"
+#include "lamp/scans/RegistrationInformation.h"
 #include "lamp/scans/Icp.h"
 
 namespace lamp {

@@ -5,7 +5,7 @@
 
 namespace lamp {
 
-/** One point, the mean, for each occupied cell of a grid with edge `leaf_m` (metres). Points of
+/** One point, the mean in place, intensity and time, for each occupied cell of a grid with edge `leaf_m` (metres). Points of
  * different sensors are not mixed, so that each keeps its true ray. Points that are not finite, or
  * farther than 1000 km, are left out. Order: by first point. */
 Scan voxelFilter(const Scan& scan, double leaf_m);

@@ -1,4 +1,4 @@
-#include "lamp/registration/RegistrationInformation.h"
+#include "lamp/scans/RegistrationInformation.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
