@@ -59,7 +59,7 @@ int shiftBetween(const std::vector<float>& a, const std::vector<float>& b) {
 void ApertureCheck::observe(const mrpt::obs::CObservation2DRangeScan& scan, double aperture_rad,
                             const Pose3& odom_T_base) {
   aperture_rad_ = aperture_rad;
-  if (turned_rad_ > kEnoughRad) return;
+  if (decided()) return;
   const Pose3 motion =
       reference_ ? Pose3(reference_->odom_T_base.inverse() * odom_T_base) : Pose3::Identity();
   const double turn = std::abs(yawOf(motion));
@@ -76,8 +76,12 @@ void ApertureCheck::observe(const mrpt::obs::CObservation2DRangeScan& scan, doub
   reference_ = std::move(now);
 }
 
+bool ApertureCheck::decided() const {
+  return turned_rad_ > kEnoughRad;
+}
+
 std::optional<double> ApertureCheck::contradiction() const {
-  if (turned_rad_ <= kEnoughRad) return std::nullopt;
+  if (!decided()) return std::nullopt;
   const double seen = turned_rad_ / shifted_beams_ * static_cast<double>(beams_ - 1);
   const double ratio = std::max(seen, aperture_rad_) / std::min(seen, aperture_rad_);
   return ratio > kMaxRatio ? std::optional<double>(seen) : std::nullopt;

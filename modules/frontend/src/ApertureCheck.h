@@ -22,6 +22,8 @@ class ApertureCheck {
    */
   std::optional<double> contradiction() const;
   double used() const { return aperture_rad_; }
+  /** Whether enough was seen. */
+  bool decided() const;
 
  private:
   struct View {

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "ApertureCheck.h"
+#include "OdometryChain.h"
+#include "ScanMerger.h"
 #include "StandstillCheck.h"
 #include "lamp/core/Csv.h"
 
@@ -48,25 +51,6 @@ std::string degrees(double radians) {
   return std::to_string(std::lround(radians * 180.0 / M_PI));
 }
 
-void append(const Scan& scan, const Pose3& target_T_scan, Scan& target) {
-  const auto first_sensor = static_cast<uint8_t>(target.sensors.size());
-  for (SensorOrigin origin : scan.sensors) {
-    origin.position = target_T_scan * origin.position;
-    target.sensors.push_back(origin);
-  }
-  const bool keep_intensity =
-      scan.hasIntensity() && (target.hasIntensity() || target.points.empty());
-  const Eigen::Isometry3f T = target_T_scan.cast<float>();
-  for (size_t i = 0; i < scan.size(); ++i) {
-    target.points.push_back(T * scan.points[i]);
-    target.sensor.push_back(static_cast<uint8_t>(first_sensor + scan.sensor[i]));
-    if (keep_intensity)
-      target.intensity.push_back(scan.intensity[i]);
-    else if (target.hasIntensity())
-      target.intensity.push_back(0.0f);
-  }
-}
-
 /** Options in effect: keyed input is taken as it is. */
 FrontEndOptions inEffect(FrontEndOptions options) {
   if (options.keyed) {
@@ -78,7 +62,7 @@ FrontEndOptions inEffect(FrontEndOptions options) {
 
 std::unique_ptr<ScanAssembler> makeAssembler(const FrontEndOptions& options) {
   if (options.keyed) return std::make_unique<SameStampScans>();
-  return std::make_unique<ReferenceLidarScans>(options.merge_window_s);
+  return std::make_unique<ReferenceLidarScans>(options.merge_window_s, options.scan);
 }
 
 }  // namespace
@@ -102,12 +86,15 @@ void FrontEndOptions::visit(OptionVisitor& v) {
 }
 
 FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
-                   std::shared_ptr<OdometrySource> odometry, std::optional<StartPrior> prior)
+                   std::vector<std::shared_ptr<OdometrySource>> odometry,
+                   std::optional<StartPrior> prior)
     : robot_(robot),
       options_(inEffect(options)),
-      odometry_(std::move(odometry)),
+      odometry_(
+          std::make_unique<OdometryChain>(std::move(odometry), options.keyed, options.motion)),
       prior_(std::move(prior)),
       assembler_(makeAssembler(options)),
+      merger_(std::make_unique<ScanMerger>(options_.scan)),
       voxel_filter_(options.voxel),
       standstill_(std::make_unique<StandstillCheck>(options.keyed ? 0 : kStandstillLookS)),
       aperture_(std::make_unique<ApertureCheck>()),
@@ -118,7 +105,7 @@ FrontEnd::~FrontEnd() = default;
 std::vector<KeyNodePacket> FrontEnd::observe(const InputObservation& observation) {
   odometry_->observe(observation);
   extras_.observe(observation);
-  if (auto scan = assembler_->observe(observation)) enqueue(std::move(*scan));
+  for (ScanParts& scan : assembler_->observe(observation)) enqueue(std::move(scan));
   return processCoveredScans();
 }
 
@@ -138,7 +125,7 @@ void FrontEnd::enqueue(ScanParts scan) {
 
 std::vector<KeyNodePacket> FrontEnd::processCoveredScans() {
   std::vector<KeyNodePacket> packets;
-  while (!waiting_.empty() && odometry_->covers(waiting_.front().stamp)) {
+  while (!waiting_.empty() && odometry_->ready(waiting_.front().stamp + merger_->sweep())) {
     if (auto packet = processScan(waiting_.front())) packets.push_back(std::move(*packet));
     waiting_.pop_front();
   }
@@ -147,15 +134,16 @@ std::vector<KeyNodePacket> FrontEnd::processCoveredScans() {
 
 std::vector<KeyNodePacket> FrontEnd::finish() {
   if (auto scan = assembler_->finish()) enqueue(std::move(*scan));
+  odometry_->finish();
   std::vector<KeyNodePacket> packets;
   for (const ScanParts& parts : waiting_) {
-    if (!odometry_->covers(parts.stamp - kMaxExtrapolationS))
+    if (!odometry_->tracks() && !odometry_->covers(parts.stamp - kMaxExtrapolationS))
       dropWithoutOdometry(parts.stamp);
     else if (auto packet = processScan(parts))
       packets.push_back(std::move(*packet));
   }
   waiting_.clear();
-  extras_.advanceTo(std::numeric_limits<double>::infinity(), *odometry_);
+  extras_.advanceTo(std::numeric_limits<double>::infinity(), odometry_->main());
   return packets;
 }
 
@@ -165,33 +153,65 @@ RobotEnd FrontEnd::end() {
 }
 
 std::optional<KeyNodePacket> FrontEnd::processScan(const ScanParts& parts) {
-  extras_.advanceTo(parts.stamp, *odometry_);
   for (const InputObservation& part : parts.observations)
     planar_lidar_ = planar_lidar_ && isPlanarLaser(*part.observation);
+  checkAperture(parts);
+  if (odometry_->tracks()) {
+    Scan scan = filtered(merged(parts));
+    const Pose3 odom_T_base = track(parts.stamp, scan);
+    extras_.advanceTo(parts.stamp, odometry_->main());
+    return processPose(parts, odom_T_base, std::move(scan));
+  }
+  extras_.advanceTo(parts.stamp, odometry_->main());
   const Pose3 odom_T_base = odometryPose(parts.stamp);
   const bool is_placed = placed(parts, odom_T_base);
   last_stamp_ = parts.stamp;
-  if (is_placed) checkAperture(parts, odom_T_base);
   if (!is_placed) return std::nullopt;
+  return processPose(parts, odom_T_base, std::nullopt);
+}
+
+/** \param scan filtered, if that was done already. */
+std::optional<KeyNodePacket> FrontEnd::processPose(const ScanParts& parts, const Pose3& odom_T_base,
+                                                   std::optional<Scan> scan) {
   if (last_scan_pose_) path_since_key_.add(last_scan_pose_->inverse() * odom_T_base);
   last_scan_pose_ = odom_T_base;
-
   if (isKeyNode(odom_T_base)) {
-    Scan scan = keyedScan(parts, odom_T_base);
-    if (!scan.points.empty()) return makePacket(parts.stamp, odom_T_base, std::move(scan));
+    if (!scan) scan = filtered(merged(parts));
+    scan->time.clear();
+    if (!scan->points.empty()) return makePacket(parts.stamp, odom_T_base, std::move(*scan));
     ++counts_.empty_scans;
   }
   passed_scans_.push_back({parts.stamp, odom_T_base});
   return std::nullopt;
 }
 
-void FrontEnd::checkAperture(const ScanParts& parts, const Pose3& odom_T_base) {
+Pose3 FrontEnd::track(double stamp, Scan& scan) {
+  ++counts_.tracked_scans;
+  FilteredScan tracked;
+  tracked.points = std::move(scan.points);
+  tracked.time = std::exchange(scan.time, {});
+  if (const double sweep = merger_->sweep(); sweep > 0)
+    tracked.twist = logSE3(odometry_->motion(stamp, stamp + sweep)) / sweep;
+  if (!scan.sensors.empty()) tracked.origin = scan.sensors.front().position.cast<float>();
+  tracked.planar = planar();
+  const Pose3 odom_T_base = odometry_->track(stamp, tracked);
+  scan.points = std::move(tracked.points);
+  return odom_T_base;
+}
+
+bool FrontEnd::planar() const {
+  return planar_lidar_ && odometry_->planar();
+}
+
+/** By recorded odometry: what is made of bent scans fits them. */
+void FrontEnd::checkAperture(const ScanParts& parts) {
   using mrpt::obs::CObservation2DRangeScan;
   const auto laser =
       std::dynamic_pointer_cast<CObservation2DRangeScan>(parts.observations.front().observation);
-  if (!laser) return;
+  const auto odom_T_base = odometry_->recordedPose(parts.stamp);
+  if (!laser || !odom_T_base) return;
   const double stated = options_.scan.laser_aperture_deg * M_PI / 180.0;
-  aperture_->observe(*laser, stated > 0 ? stated : laser->aperture, odom_T_base);
+  aperture_->observe(*laser, stated > 0 ? stated : laser->aperture, *odom_T_base);
 }
 
 /** Whether odometry knows where a scan was taken. */
@@ -201,8 +221,8 @@ bool FrontEnd::placed(const ScanParts& parts, const Pose3& odom_T_base) {
     leaveOut(last_stamp_, parts.stamp, kGapMPerS, kGapRadPerS);
     return false;
   }
-  const bool contradicted = standstill_->contradicts(parts.stamp, odom_T_base,
-                                                     [&] { return merged(parts, odom_T_base); });
+  const bool contradicted =
+      standstill_->contradicts(parts.stamp, odom_T_base, [&] { return merged(parts); });
   if (!contradicted) return true;
   ++counts_.contradicted;
   double begin = last_stamp_;
@@ -246,38 +266,19 @@ bool FrontEnd::isKeyNode(const Pose3& odom_T_base) const {
          rotationAngle(motion) * 180.0 / M_PI >= angle_deg;
 }
 
-/** Filtered unless it was already. */
-Scan FrontEnd::keyedScan(const ScanParts& parts, const Pose3& odom_T_base) {
-  Scan scan = merged(parts, odom_T_base);
+/** All parts in the base frame at the scan's stamp. */
+Scan FrontEnd::merged(const ScanParts& parts) {
+  return merger_->merge(parts, [&](double from, double to) { return odometry_->motion(from, to); });
+}
+
+/** Unless that was done already, and unless the few points of a laser in the plane are all needed.
+ */
+Scan FrontEnd::filtered(Scan scan) {
   if (options_.keyed) return scan;
   if (!planar()) return voxel_filter_.filter(scan);
   median_range_m_ = medianRange(scan);
   const bool few = scan.size() <= static_cast<size_t>(options_.voxel.target_points);
   return few ? scan : voxel_filter_.filter(scan);
-}
-
-/** All parts in the base frame at the scan's stamp. */
-Scan FrontEnd::merged(const ScanParts& parts, const Pose3& odom_T_base) {
-  Scan merged;
-  for (const InputObservation& part : parts.observations) {
-    const bool same_time = part.stamp == parts.stamp;
-    appendScan(
-        part,
-        same_time ? Pose3::Identity() : Pose3(odom_T_base.inverse() * odometryPose(part.stamp)),
-        merged);
-  }
-  return merged;
-}
-
-void FrontEnd::appendScan(const InputObservation& observation, const Pose3& base_T_scan,
-                          Scan& merged) {
-  try {
-    const auto scan =
-        scanFromObservation(*observation.observation, observation.label, options_.scan);
-    if (scan) append(*scan, base_T_scan, merged);
-  } catch (const std::exception& error) {  // MRPT throws logic errors for missing files
-    if (counts_.unreadable_scans++ == 0) first_unreadable_ = error.what();
-  }
 }
 
 /** An inertial unit that contradicts the start pose is mounted otherwise than the recording says.
@@ -354,9 +355,9 @@ std::vector<std::string> FrontEnd::warnings() const {
                      degrees(gravity_deviation_) + " deg from that of " +
                      (prior_ ? "the start pose" : "the odometry's frame") +
                      "; check how the recording says it is mounted (sensorPose)");
-  if (counts_.unreadable_scans > 0)
-    result.push_back(std::to_string(counts_.unreadable_scans) +
-                     " scans could not be read, the first: " + first_unreadable_);
+  if (merger_->unreadable() > 0)
+    result.push_back(std::to_string(merger_->unreadable()) +
+                     " scans could not be read, the first: " + merger_->firstUnreadable());
   if (counts_.empty_scans > 0)
     result.push_back(std::to_string(counts_.empty_scans) +
                      " scans had no usable point and could not become key nodes");

@@ -33,4 +33,21 @@ Matrix6d odometryCovariance(const Path& path, const MotionModelOptions& options)
   return variances.asDiagonal();
 }
 
+Matrix6d stepCovariance(const Pose3& motion, const MotionModelOptions& options) {
+  constexpr double kEdgeM = 2.0, kEdgeRad = 0.5;
+  constexpr double kLeastM = 0.001, kLeastRad = 0.0004;
+  const double length = motion.translation().norm(), turned = rotationAngle(motion);
+  const double share = length / kEdgeM + turned / kEdgeRad;
+  const double sigma_m = options.sigma_m_per_m * std::sqrt(kEdgeM * length);
+  const double sigma_rad = std::hypot(options.sigma_rad_per_m * std::sqrt(kEdgeM * length),
+                                      options.sigma_rad_per_rad * std::sqrt(kEdgeRad * turned));
+  const auto variance = [&](double sigma, double min_sigma, double least) {
+    return sigma * sigma + share * min_sigma * min_sigma + least * least;
+  };
+  Vector6d variances;
+  variances.head<3>().setConstant(variance(sigma_m, options.min_sigma_m, kLeastM));
+  variances.tail<3>().setConstant(variance(sigma_rad, options.min_sigma_rad, kLeastRad));
+  return variances.asDiagonal();
+}
+
 }  // namespace lamp

@@ -6,6 +6,7 @@
 
 #include "OdometryContinuity.h"
 #include "lamp/core/Csv.h"
+#include "lamp/frontend/LidarOdometry.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(OdometrySource, Stage, lamp)
 IMPLEMENTS_MRPT_OBJECT(RecordedOdometry, lamp::OdometrySource, lamp)
@@ -179,6 +180,8 @@ std::vector<std::string> RecordedOdometry::warnings() const {
 void registerAllClasses_lamp_frontend() {
   mrpt::rtti::registerClass(CLASS_ID(OdometrySource));
   mrpt::rtti::registerClass(CLASS_ID(RecordedOdometry));
+  mrpt::rtti::registerClass(CLASS_ID(ScanOdometry));
+  mrpt::rtti::registerClass(CLASS_ID(LidarOdometry));
 }
 
 }  // namespace lamp

@@ -15,19 +15,55 @@ constexpr double kSilentS = 2.0, kSilentFactor = 5.0;
 
 }  // namespace
 
-std::optional<ScanParts> ReferenceLidarScans::observe(const InputObservation& observation) {
-  if (!isLidar(*observation.observation)) return std::nullopt;
+std::vector<ScanParts> ReferenceLidarScans::observe(const InputObservation& observation) {
+  if (!isLidar(*observation.observation)) return {};
   if (!reference_ || (observation.label != *reference_ && isSilent(observation.stamp)))
     changeReference(observation);
   if (observation.label != *reference_) {
     latest_other_[observation.label] = observation;
-    return std::nullopt;
+    return {};
   }
   noteInterval(observation.stamp);
-  ScanParts scan{observation.stamp, {observation}};
-  for (const auto& [label, other] : latest_other_)
-    if (observation.stamp - other.stamp <= merge_window_s_) scan.observations.push_back(other);
-  return scan;
+  std::vector<ScanParts> complete;
+  const auto close = [&] {
+    if (open_) complete.push_back(std::move(*std::exchange(open_, std::nullopt)));
+  };
+  if (gatherer_->wholeScans() || begins(observation)) {
+    close();
+    open_ = ScanParts{observation.stamp, {}};
+    for (const auto& [label, other] : latest_other_)
+      if (observation.stamp - other.stamp <= merge_window_s_) open_->observations.push_back(other);
+  }
+  // The reference lidar's own come first.
+  auto& parts = open_->observations;
+  const auto other = std::find_if(parts.begin(), parts.end(), [&](const InputObservation& part) {
+    return part.label != observation.label;
+  });
+  parts.insert(other, observation);
+  if (gatherer_->wholeScans()) close();
+  return complete;
+}
+
+/** \return whether the observation is the first of a scan. One that shows nothing, or cannot be
+ * read, stands alone. */
+bool ReferenceLidarScans::begins(const InputObservation& observation) {
+  const bool follows_one_alone = std::exchange(stands_alone_, true);
+  try {
+    const auto scan = scanFromObservation(*observation.observation, observation.label, options_);
+    if (!scan || scan->points.empty()) return true;
+    mrpt::poses::CPose3D pose;
+    observation.observation->getSensorPose(pose);
+    const Pose3 base_T_sensor(
+        pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen());
+    stands_alone_ = false;
+    return gatherer_->begins(observation.stamp, base_T_sensor, *scan) || follows_one_alone;
+  } catch (const std::exception&) {  // MRPT throws logic errors for missing files
+    return true;
+  }
+}
+
+std::optional<ScanParts> ReferenceLidarScans::finish() {
+  return std::exchange(open_, std::nullopt);
 }
 
 /** A pause of the recording is no interval. */
@@ -53,6 +89,7 @@ void ReferenceLidarScans::changeReference(const InputObservation& observation) {
   }
   reference_ = observation.label;
   latest_other_.erase(observation.label);
+  gatherer_.emplace();
   last_.reset();
 }
 
@@ -60,8 +97,9 @@ std::optional<ScanParts> SameStampScans::advanceTo(double stamp) {
   return open_ && stamp > open_->stamp ? finish() : std::nullopt;
 }
 
-std::optional<ScanParts> SameStampScans::observe(const InputObservation& observation) {
-  auto complete = advanceTo(observation.stamp);
+std::vector<ScanParts> SameStampScans::observe(const InputObservation& observation) {
+  std::vector<ScanParts> complete;
+  if (auto scan = advanceTo(observation.stamp)) complete.push_back(std::move(*scan));
   if (isLidar(*observation.observation)) takeLidar(observation);
   return complete;
 }

@@ -281,7 +281,8 @@ TEST_F(GrowingCovariance, KeepsTheBeginningOfAnEdgeHoweverLongItLasts) {
 TEST(RecordedOdometry, IsMadeByName) {
   registerAllClasses_lamp_core();
   registerAllClasses_lamp_frontend();
-  EXPECT_THAT(stageClasses(CLASS_ID(OdometrySource)), ElementsAre("RecordedOdometry"));
+  EXPECT_THAT(stageClasses(CLASS_ID(OdometrySource)),
+              ElementsAre("LidarOdometry", "RecordedOdometry"));
 }
 
 }  // namespace

@@ -26,29 +26,59 @@ std::string text(const std::optional<ScanParts>& parts) {
   return result;
 }
 
+std::string text(const std::vector<ScanParts>& scans) {
+  std::string result;
+  for (const ScanParts& parts : scans)
+    result += (result.empty() ? "" : "; ") + text(std::optional(parts));
+  return scans.empty() ? "none" : result;
+}
+
 TEST(ReferenceLidarScans, JoinsTheLatestOfOtherLidars) {
-  ReferenceLidarScans scans(1.5);
-  EXPECT_EQ(text(scans.observe(scan(0, "front"))), "0: front") << "the first one is the reference";
+  ReferenceLidarScans scans(1.5, ScanOptions());
+  EXPECT_EQ(text(scans.observe(scan(0, "front"))), "none") << "it may be a piece of a sweep";
   EXPECT_EQ(text(scans.observe(scan(1, "rear"))), "none");
   EXPECT_EQ(text(scans.observe(scan(2, "rear"))), "none");
   EXPECT_EQ(text(scans.observe(wheels(kStart + 2, 0))), "none");
-  EXPECT_EQ(text(scans.observe(scan(3, "front"))), "3: front rear");
-  EXPECT_EQ(text(scans.observe(scan(4, "front"))), "4: front") << "rear is too old";
+  EXPECT_EQ(text(scans.observe(scan(3, "front"))), "0: front") << "the first one is the reference";
+  EXPECT_EQ(text(scans.observe(scan(4, "front"))), "3: front rear");
+  EXPECT_EQ(text(scans.observe(scan(5, "front"))), "4: front; 5: front") << "rear is too old";
   EXPECT_EQ(text(scans.finish()), "none");
 }
 
+TEST(ReferenceLidarScans, DoNotWaitOnceObservationsAreKnownToBeWholeScans) {
+  ReferenceLidarScans scans(0.2, ScanOptions());
+  size_t complete = 0;
+  for (int i = 0; i < 10; ++i) complete += scans.observe(scan(i, "front")).size();
+  EXPECT_EQ(complete, 10u);
+  EXPECT_EQ(text(scans.observe(scan(10, "front"))), "10: front");
+}
+
+TEST(ReferenceLidarScans, GatherThePiecesOfASweep) {
+  ReferenceLidarScans scans(0.2, ScanOptions());
+  std::vector<size_t> pieces;
+  for (int i = 0; i < 40; ++i) {
+    const double azimuth = i * M_PI / 5;  // ten to a turn
+    std::vector<Eigen::Vector3f> points;
+    for (double a = azimuth; a < azimuth + 0.6; a += 0.05)
+      points.emplace_back(5 * std::cos(a), 5 * std::sin(a), 0);
+    for (const ScanParts& parts : scans.observe(cloud(kStart + 0.01 * i, points, "front")))
+      pieces.push_back(parts.observations.size());
+  }
+  EXPECT_THAT(pieces, ElementsAre(10, 10, 10));
+}
+
 TEST(ReferenceLidarScans, AnotherLidarTakesOverFromOneThatDies) {
-  ReferenceLidarScans scans(0.2);
+  ReferenceLidarScans scans(0.2, ScanOptions());
   size_t of_front = 0, of_rear = 0;
   for (int i = 0; i < 400; ++i) {
     const double t = 0.1 * i;
     if (t < 10)
-      if (const auto parts = scans.observe(scan(t, "front"))) {
-        EXPECT_EQ(parts->observations[0].label, "front");
+      for (const ScanParts& parts : scans.observe(scan(t, "front"))) {
+        EXPECT_EQ(parts.observations[0].label, "front");
         ++of_front;
       }
-    if (const auto parts = scans.observe(scan(t + 0.05, "rear"))) {
-      EXPECT_EQ(parts->observations.size(), 1u);
+    for (const ScanParts& parts : scans.observe(scan(t + 0.05, "rear"))) {
+      EXPECT_EQ(parts.observations.size(), 1u);
       ++of_rear;
     }
   }
@@ -59,14 +89,14 @@ TEST(ReferenceLidarScans, AnotherLidarTakesOverFromOneThatDies) {
 }
 
 TEST(ReferenceLidarScans, ASlowLidarAndAPauseOfAllAreNoDeath) {
-  ReferenceLidarScans scans(0.2);
+  ReferenceLidarScans scans(0.2, ScanOptions());
+  size_t of_front = 0;
   for (int i = 0; i < 120; ++i) {
     const double t = i + (i < 60 ? 0 : 300);
-    if (i % 3 == 0) {
-      EXPECT_NE(text(scans.observe(scan(t, "front"))), "none");
-    }
+    if (i % 3 == 0) of_front += scans.observe(scan(t, "front")).size();
     EXPECT_EQ(text(scans.observe(scan(t + 0.5, "rear"))), "none");
   }
+  EXPECT_EQ(of_front, 40u);
   EXPECT_THAT(scans.warnings(), IsEmpty());
 }
 

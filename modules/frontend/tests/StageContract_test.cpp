@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "StageSuite.h"
+#include "TestHall.h"
 #include "TestObservations.h"
 #include "lamp/core/Stage.h"
 #include "lamp/frontend/OdometrySource.h"
@@ -32,6 +33,10 @@ void drive(OdometrySource& source, double end = kEnd) {
   for (double t = 0; t <= end; t += 0.1) {
     source.observe(robotPose(kStart + t, truth(t)));
     source.observe(cloud(kStart + t, somePoints()));
+    if (auto* const tracker = dynamic_cast<ScanOdometry*>(&source)) {
+      FilteredScan scan = hallSeenFrom(truth(t), static_cast<unsigned>(10 * t));
+      tracker->track(kStart + t, std::nullopt, scan);
+    }
   }
 }
 

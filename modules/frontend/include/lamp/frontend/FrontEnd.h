@@ -17,6 +17,8 @@
 namespace lamp {
 
 class ApertureCheck;
+class OdometryChain;
+class ScanMerger;
 class StandstillCheck;
 
 struct FrontEndOptions {
@@ -39,8 +41,9 @@ struct FrontEndOptions {
  * neither filtered nor cut at the range limits, which whoever keyed them has done. */
 class FrontEnd {
  public:
-  FrontEnd(RobotId robot, const FrontEndOptions& options, std::shared_ptr<OdometrySource> odometry,
-           std::optional<StartPrior> prior);
+  /** \param odometry sources, in order of preference. */
+  FrontEnd(RobotId robot, const FrontEndOptions& options,
+           std::vector<std::shared_ptr<OdometrySource>> odometry, std::optional<StartPrior> prior);
   ~FrontEnd();
 
   /** \return the key nodes that the observation completes, in time order. */
@@ -59,7 +62,7 @@ class FrontEnd {
     size_t empty_scans = 0;       ///< no usable point where a key node was due
     size_t without_odometry = 0;  ///< scans that no odometry covers
     size_t contradicted = 0;      ///< scans that move while odometry stands
-    size_t unreadable_scans = 0;  ///< whose external file could not be read
+    size_t tracked_scans = 0;     ///< whose pose comes from scan odometry
   };
   const Counts& counts() const { return counts_; }
   std::vector<std::string> warnings() const;
@@ -69,15 +72,17 @@ class FrontEnd {
   std::vector<KeyNodePacket> processCoveredScans();
   std::optional<KeyNodePacket> processScan(const ScanParts& parts);
   bool placed(const ScanParts& parts, const Pose3& odom_T_base);
-  void checkAperture(const ScanParts& parts, const Pose3& odom_T_base);
+  void checkAperture(const ScanParts& parts);
   void dropWithoutOdometry(double stamp);
   void leaveOut(double begin, double end, double sigma_m_per_s, double sigma_rad_per_s);
-  bool planar() const { return planar_lidar_ && odometry_->planar(); }
+  bool planar() const;
   Pose3 odometryPose(double stamp);
-  Scan merged(const ScanParts& parts, const Pose3& odom_T_base);
+  Scan merged(const ScanParts& parts);
+  Scan filtered(Scan scan);
+  Pose3 track(double stamp, Scan& filtered);
+  std::optional<KeyNodePacket> processPose(const ScanParts& parts, const Pose3& odom_T_base,
+                                           std::optional<Scan> scan);
   bool isKeyNode(const Pose3& odom_T_base) const;
-  Scan keyedScan(const ScanParts& parts, const Pose3& odom_T_base);
-  void appendScan(const InputObservation& observation, const Pose3& base_T_scan, Scan& merged);
   bool believes(const GravityReading& gravity, const Pose3& odom_T_base);
   KeyNodeExtras takeExtras(const Pose3& odom_T_base);
   KeyNodePacket makePacket(double stamp, const Pose3& odom_T_base, Scan scan);
@@ -85,9 +90,10 @@ class FrontEnd {
 
   const RobotId robot_;
   const FrontEndOptions options_;
-  const std::shared_ptr<OdometrySource> odometry_;
+  const std::unique_ptr<OdometryChain> odometry_;
   const std::optional<StartPrior> prior_;
   const std::unique_ptr<ScanAssembler> assembler_;
+  const std::unique_ptr<ScanMerger> merger_;
   AdaptiveVoxelFilter voxel_filter_;
 
   const std::unique_ptr<StandstillCheck> standstill_;
@@ -112,7 +118,6 @@ class FrontEnd {
   double gravity_deviation_ = 0;          ///< of that from upright, radians
   std::optional<Pose3> world_T_odom_;     ///< by the start pose
   Counts counts_;
-  std::string first_unreadable_;
   double first_without_odometry_ = 0;  ///< stamp, seconds, UTC
 };
 

@@ -27,4 +27,8 @@ struct Path {
  * fixed values of LAMP for an edge. */
 Matrix6d odometryCovariance(const Path& path, const MotionModelOptions& options);
 
+/** Covariance of odometry between two scans, so that those of an edge's steps add up to about the
+ * edge's: errors persist over metres, so each step has its share of the edge's variance. */
+Matrix6d stepCovariance(const Pose3& motion, const MotionModelOptions& options);
+
 }  // namespace lamp

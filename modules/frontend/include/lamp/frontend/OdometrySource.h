@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lamp/core/Geometry.h"
@@ -38,7 +40,40 @@ class OdometrySource : public Stage {
   virtual std::vector<std::string> warnings() const = 0;
 };
 
-/** Registers RecordedOdometry. */
+/** What another source says of the motion between two scans. */
+struct MotionPrior {
+  Pose3 motion = Pose3::Identity();
+  Matrix6d covariance = Matrix6d::Identity();  ///< in the tangent space at the motion
+};
+
+/** A scan as odometry needs it. */
+struct FilteredScan {
+  std::vector<Eigen::Vector3f> points;  ///< base frame at the scan's stamp, metres
+  /** When each point was measured, seconds since the stamp; empty if nobody knows. */
+  std::vector<float> time;
+  /** The motion by which points were brought from the base frame at their time to that at the
+   * stamp, a second: `Exp(time · twist)`. */
+  Vector6d twist = Vector6d::Zero();
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< of the first lidar
+  bool planar = false;  ///< of a level 2D laser on a robot that stays level
+};
+
+/** Odometry that is made of the robot's scans, with the other sources of its list as a prior. */
+class ScanOdometry : public OdometrySource {
+  DEFINE_VIRTUAL_MRPT_OBJECT(ScanOdometry)
+
+ public:
+  /** The motion from the last scan to `stamp` (seconds, UTC) if the robot goes on as it did. */
+  virtual Pose3 predictedMotion(double stamp) const = 0;
+  /** The next scan. \param prior what another source says of the motion since the last one, if one
+   * knows. \param[in,out] scan where no other source knew how the robot moved while the lidar
+   * turned, its points are put where the motion that is found wants them. \return `odom_T_base` at
+   * the scan's stamp, as poseAt() will. */
+  virtual Pose3 track(double stamp, const std::optional<MotionPrior>& prior,
+                      FilteredScan& scan) = 0;
+};
+
+/** Registers LidarOdometry and RecordedOdometry. */
 void registerAllClasses_lamp_frontend();
 
 }  // namespace lamp

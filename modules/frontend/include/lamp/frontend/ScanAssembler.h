@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "lamp/frontend/SweepGatherer.h"
 #include "lamp/input/ObservationSource.h"
+#include "lamp/input/ScanFromObservation.h"
 
 namespace lamp {
 
@@ -23,8 +25,8 @@ class ScanAssembler {
    *  \return the scan that is complete by this, if one is. */
   virtual std::optional<ScanParts> advanceTo(double stamp) = 0;
   /** Takes the robot's observations in time order, those that are no lidar too.
-   *  \return the scan that is complete by this, if one is. */
-  virtual std::optional<ScanParts> observe(const InputObservation& observation) = 0;
+   *  \return the scans that are complete by this. */
+  virtual std::vector<ScanParts> observe(const InputObservation& observation) = 0;
   /** No more observations will come. \return the scan that still waited for some. */
   virtual std::optional<ScanParts> finish() = 0;
   /** What a user should know, in words. */
@@ -32,23 +34,30 @@ class ScanAssembler {
 };
 
 /** Raw recordings: each scan of the reference lidar, the first one seen, is joined by the latest
- * scan of each other lidar, unless that is too old. If the reference lidar falls silent, the next
- * one that speaks takes its place. */
+ * scan of each other lidar, unless that is too old. A scan is one observation, or several where a
+ * driver cuts sweeps into pieces or the lidar's mount turns. If the reference lidar falls silent,
+ * the next one that speaks takes its place. */
 class ReferenceLidarScans : public ScanAssembler {
  public:
-  explicit ReferenceLidarScans(double merge_window_s) : merge_window_s_(merge_window_s) {}
+  ReferenceLidarScans(double merge_window_s, const ScanOptions& options)
+      : merge_window_s_(merge_window_s), options_(options) {}
 
   std::optional<ScanParts> advanceTo(double) override { return std::nullopt; }
-  std::optional<ScanParts> observe(const InputObservation& observation) override;
-  std::optional<ScanParts> finish() override { return std::nullopt; }
+  std::vector<ScanParts> observe(const InputObservation& observation) override;
+  std::optional<ScanParts> finish() override;
   std::vector<std::string> warnings() const override { return warnings_; }
 
  private:
+  bool begins(const InputObservation& observation);
   void noteInterval(double stamp);
   bool isSilent(double stamp) const;
   void changeReference(const InputObservation& observation);
 
   const double merge_window_s_;
+  const ScanOptions options_;
+  std::optional<SweepGatherer> gatherer_{SweepGatherer()};
+  std::optional<ScanParts> open_;     ///< not yet known to be complete
+  bool stands_alone_ = true;          ///< the last observation; the next one begins a scan
   std::optional<double> last_;        ///< stamp of the reference lidar's last scan
   std::optional<double> interval_s_;  ///< between its scans
   std::vector<std::string> warnings_;
@@ -61,7 +70,7 @@ class ReferenceLidarScans : public ScanAssembler {
 class SameStampScans : public ScanAssembler {
  public:
   std::optional<ScanParts> advanceTo(double stamp) override;
-  std::optional<ScanParts> observe(const InputObservation& observation) override;
+  std::vector<ScanParts> observe(const InputObservation& observation) override;
   std::optional<ScanParts> finish() override;
   std::vector<std::string> warnings() const override;
 

@@ -1,0 +1,487 @@
+#include "lamp/frontend/LidarOdometry.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "lamp/core/Csv.h"
+#include "lamp/core/KdTree.h"
+#include "lamp/scans/GlobalAlignment.h"
+#include "lamp/scans/PreparedScan.h"
+
+IMPLEMENTS_VIRTUAL_MRPT_OBJECT(ScanOdometry, lamp::OdometrySource, lamp)
+IMPLEMENTS_MRPT_OBJECT(LidarOdometry, lamp::ScanOdometry, lamp)
+
+namespace lamp {
+
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+/** Poses so long before the newest are not asked for any more. */
+constexpr double kKeptS = 60.0;
+/** A stamp so near a scan has the scan's pose, about. */
+constexpr double kNearS = 0.5;
+
+/** The map's points lie as far apart as the first scan's, within limits. */
+constexpr float kLeastLeafM = 0.1f, kLeastPlanarLeafM = 0.05f, kMostLeafM = 0.5f;
+/** What was last seen so far back is forgotten: by then odometry may have drifted by more than what
+ * a scan can be registered from. */
+constexpr double kRememberedM = 100.0;
+/** The map reaches this many times as far as the scan. */
+constexpr double kReach = 1.5;
+
+/** What a scan and the local map have in common of the patches' deviation. */
+constexpr double kCommonShareInMap = 0.1;
+
+/** A robot whose speed nobody knows. */
+constexpr double kSpeedM = 2.0, kSpeedRad = 1.0;
+constexpr double kStillM = 0.005, kStillRad = 0.1 * kDegree;
+
+/** Nothing is known better. */
+constexpr double kLeastM = 0.001, kLeastRad = 0.02 * kDegree;
+
+/** Predictions whose error is this much larger than it should be, on average over the degrees of
+ * freedom, are doubted; one like the second is wrong. */
+constexpr double kExpectedSurprise = 1.5, kWrongSurprise = 16.0;
+constexpr size_t kSurprises = 20;
+constexpr double kMaxScale = 1e4;
+/** Scans are sought within this first; so great a part of one that matches is enough. */
+constexpr double kNearM = 0.8, kGoodShare = 0.5;
+/** A point may lie so many standard deviations of the prediction off, and never farther. */
+constexpr double kSigmas = 3.0, kMaxErrorM = 3.0;
+/** Scans in a row that contradict another source before the lidar is believed: a scan taken in a
+ * fast turn may err, and nothing is lost, as the next one is registered to the map, too. */
+constexpr int kBelieved = 3;
+/** A scan that fits matches at least this part of what scans usually do. */
+constexpr double kUsualPart = 0.9;
+constexpr double kShareMemory = 0.05;
+/** After so many scans that match nothing the map is begun anew. */
+constexpr size_t kLostForGood = 10;
+/** A map begins with a scan of so many points. */
+constexpr size_t kFewestPoints = 50;
+
+double medianOf(std::deque<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+float radiusOf(const std::vector<Eigen::Vector3f>& points) {
+  double sum = 0;
+  for (const Eigen::Vector3f& point : points) sum += point.cast<double>().squaredNorm();
+  return static_cast<float>(
+      std::sqrt(sum / std::max<double>(1, static_cast<double>(points.size()))));
+}
+
+float farthest(const std::vector<Eigen::Vector3f>& points) {
+  float most = 0;
+  for (const Eigen::Vector3f& point : points) most = std::max(most, point.squaredNorm());
+  return std::sqrt(most);
+}
+
+/** How far apart the scan's points lie on surfaces, median, within limits: rings of a lidar are
+ * dense along and far from one another, so more than the nearest neighbour counts. */
+float leafFor(const FilteredScan& scan) {
+  const size_t neighbors = scan.planar ? 2 : 6;
+  const float spacings = scan.planar ? 1.0f : 2.2f;  // that the farthest of them lies off
+  const KdTree tree(scan.points);
+  std::vector<float> distances;
+  std::vector<uint32_t> nearest;
+  for (const Eigen::Vector3f& point : scan.points) {
+    tree.nearest(point, neighbors + 1, nearest);
+    if (nearest.size() == neighbors + 1)
+      distances.push_back((scan.points[nearest.back()] - point).norm() / spacings);
+  }
+  if (distances.empty()) return kMostLeafM;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return std::clamp(*middle, scan.planar ? kLeastPlanarLeafM : kLeastLeafM, kMostLeafM);
+}
+
+/** Features of a scan, for alignment without a guess. */
+PreparedScanPtr prepared(const std::vector<Eigen::Vector3f>& points, bool planar) {
+  constexpr int kNormalNeighbors = 10;
+  return prepareScan(points, kNormalNeighbors, planar);
+}
+
+/** The scan as another motion during its sweep makes it. */
+FilteredScan undistortedBy(const Vector6d& twist, FilteredScan scan) {
+  constexpr int kMoments = 16;
+  const auto [first, last] = std::minmax_element(scan.time.begin(), scan.time.end());
+  const float begin = *first, step = std::max(1e-9f, (*last - *first) / kMoments);
+  std::vector<Eigen::Isometry3f> corrections;
+  for (int k = 0; k <= kMoments; ++k) {
+    const double time = begin + step * static_cast<float>(k);
+    corrections.push_back(
+        (expSE3(time * twist) * expSE3(time * scan.twist).inverse()).cast<float>());
+  }
+  for (size_t i = 0; i < scan.points.size(); ++i) {
+    const float place = (scan.time[i] - begin) / step;
+    scan.points[i] = corrections[static_cast<size_t>(
+                         std::lround(std::clamp(place, 0.0f, static_cast<float>(kMoments))))] *
+                     scan.points[i];
+  }
+  scan.twist = twist;
+  return scan;
+}
+
+/** Squared, over the degrees of freedom. \param expected inverse covariance of the innovation. */
+double surpriseOf(const Vector6d& innovation, const Matrix6d& expected) {
+  const auto freedom = static_cast<double>(Eigen::FullPivLU<Matrix6d>(expected).rank());
+  return innovation.dot(expected * innovation) / std::max(1.0, freedom);
+}
+
+/** Without what lies out of the plane: nothing moves there, and nothing is measured. */
+Matrix6d inPlane(const Matrix6d& m) {
+  Matrix6d result = Matrix6d::Zero();
+  for (const int a : kPlanarAxes)
+    for (const int b : kPlanarAxes) result(a, b) = m(a, b);
+  return result;
+}
+
+Matrix6d diagonal(double sigma_m, double sigma_rad) {
+  Vector6d variances;
+  variances.head<3>().setConstant(sigma_m * sigma_m);
+  variances.tail<3>().setConstant(sigma_rad * sigma_rad);
+  return variances.asDiagonal();
+}
+
+}  // namespace
+
+void LidarOdometryOptions::visit(OptionVisitor& v) {
+  v("min_matched_share", min_matched_share, "",
+    "a scan of which a smaller fraction lies on surfaces of the local map is not registered to it",
+    kShare);
+  v("insert_distance_m", insert_distance_m, "m",
+    "distance travelled before a scan is added to the local map; smaller values follow the "
+    "surroundings more closely, larger ones drift less",
+    kPositive);
+  v("insert_angle_deg", insert_angle_deg, "deg", "rotation before a scan is added to the local map",
+    kPositive);
+  v("max_acceleration_m_s2", max_acceleration_m_s2, "m/s2",
+    "how much a robot may speed up or slow down: where no other source predicts its motion, it is "
+    "taken to go on as it did, to this",
+    kPositive);
+  v("max_acceleration_rad_s2", max_acceleration_rad_s2, "rad/s2", "the same for turning",
+    kPositive);
+  v("drift_m_per_m", drift_m_per_m, "m/m",
+    "position error that the local map adds per metre travelled", kNotNegative);
+  v("drift_rad_per_m", drift_rad_per_m, "rad/m",
+    "rotation error that the local map adds per metre travelled", kNotNegative);
+  information.visit(v);
+}
+
+bool LidarOdometry::covers(double stamp) const {
+  return !poses_.empty() && poses_.back().stamp >= stamp;
+}
+
+bool LidarOdometry::knows(double stamp) const {
+  return !poses_.empty() && stamp >= poses_.front().stamp - kNearS;
+}
+
+Pose3 LidarOdometry::poseAt(double stamp) {
+  if (poses_.empty()) return Pose3::Identity();
+  const auto after =
+      std::lower_bound(poses_.begin(), poses_.end(), stamp,
+                       [](const StampedPose& pose, double t) { return pose.stamp < t; });
+  if (after == poses_.begin()) return after->pose;
+  if (after == poses_.end())
+    return poses_.back().pose * predictedMotion(std::min(stamp, poses_.back().stamp + kNearS));
+  const auto before = after - 1;
+  return interpolate(before->pose, after->pose,
+                     (stamp - before->stamp) / (after->stamp - before->stamp));
+}
+
+void LidarOdometry::keepFrom(double stamp) {
+  kept_ = StampedPose{stamp, poseAt(stamp)};
+  path_since_kept_m_ = 0;
+  doubt_.setZero();
+  covariance_.keep();
+}
+
+std::optional<Matrix6d> LidarOdometry::covarianceBetween(double begin, double end) {
+  if (!kept_ || kept_->stamp != begin || poses_.empty() || poses_.back().stamp != end)
+    return std::nullopt;
+  const Pose3 motion = kept_->pose.inverse() * poses_.back().pose;
+  return covariance_.sinceKept(motion) +
+         diagonal(kLeastM + options.drift_m_per_m * path_since_kept_m_,
+                  kLeastRad + options.drift_rad_per_m * path_since_kept_m_);
+}
+
+Matrix6d LidarOdometry::doubtBetween(double begin, double) const {
+  return kept_ && kept_->stamp == begin ? doubt_ : Matrix6d::Zero();
+}
+
+Pose3 LidarOdometry::predictedMotion(double stamp) const {
+  if (poses_.empty() || !(last_motion_s_ > 0)) return Pose3::Identity();
+  return interpolate(Pose3::Identity(), last_motion_,
+                     (stamp - poses_.back().stamp) / last_motion_s_);
+}
+
+MotionPrior LidarOdometry::constantVelocity(double seconds) const {
+  MotionPrior prior;
+  prior.motion = predictedMotion(poses_.back().stamp + seconds);
+  if (!(last_motion_s_ > 0)) {
+    prior.covariance = diagonal(kSpeedM * seconds, kSpeedRad * seconds);
+  } else {
+    const double span = seconds * (0.5 * (seconds + last_motion_s_) + lost_s_);
+    prior.covariance = diagonal(kStillM + options.max_acceleration_m_s2 * span,
+                                kStillRad + options.max_acceleration_rad_s2 * span);
+  }
+  return prior;
+}
+
+MotionPrior LidarOdometry::weighed(const MotionPrior& prior) const {
+  return {prior.motion, prior_scale_ * prior.covariance};
+}
+
+Pose3 LidarOdometry::track(double stamp, const std::optional<MotionPrior>& prior,
+                           FilteredScan& scan) {
+  ++scans_;
+  if (poses_.empty()) {
+    if (scan.points.size() >= kFewestPoints) begin(stamp, scan);
+    return Pose3::Identity();
+  }
+  Located best = prior ? locate(scan, weighed(*prior), false) : locateAlone(stamp, scan, true);
+  if (prior) {
+    judgePrior(best);
+    if (!best.tracked || best.surprise > kWrongSurprise)
+      best = settle(stamp, scan, best);
+    else
+      contradictions_in_a_row_ = 0;
+  }
+  if (!best.points.empty()) scan.points = std::move(best.points);
+  accept(stamp, scan, best);
+  return poses_.back().pose;
+}
+
+/** The lidar seems to contradict the other source, or matches nothing from where that puts it.
+ * Where the robot would be without that source tells which of the two to believe. \param by_prior
+ * located from the other source's motion. */
+LidarOdometry::Located LidarOdometry::settle(double stamp, const FilteredScan& scan,
+                                             const Located& by_prior) {
+  Located alone = locateAlone(stamp, scan, false);
+  const bool fits = alone.tracked && alone.surprise < kWrongSurprise &&
+                    alone.matched_share >= std::max(kGoodShare, kUsualPart * usual_share_);
+  const MotionPrior& prior = by_prior.prediction;
+  const auto differs = [&](const Pose3& motion, const MotionPrior& from) {
+    return surpriseOf(logSE3(from.motion.inverse() * motion), from.covariance.inverse()) >
+           kWrongSurprise;
+  };
+  const Pose3 found = poses_.back().pose.inverse() * alone.registered;
+  if (fits && !differs(found, prior)) return alone;
+  // No robot moves as that source says, or it was contradicted too often.
+  const bool impossible = differs(prior.motion, alone.prediction);
+  if (fits && (impossible || ++contradictions_in_a_row_ >= kBelieved)) {
+    if (contradicted_++ == 0) first_contradicted_ = stamp;
+    addDoubt(logSE3(prior.motion.inverse() * found));
+    return alone;
+  }
+  Located follows = by_prior;
+  follows.odom_T_base = poses_.back().pose * prior.motion;
+  follows.information.setZero();
+  follows.tracked = false;
+  if (alone.tracked || by_prior.tracked)
+    addDoubt(logSE3(
+        prior.motion.inverse() *
+        (by_prior.tracked ? Pose3(poses_.back().pose.inverse() * by_prior.registered) : found)));
+  return follows;
+}
+
+/** Two sources disagree, and whichever is believed may be the wrong one. */
+void LidarOdometry::addDoubt(const Vector6d& disagreement) {
+  doubt_ += diagonal(disagreement.head<3>().norm(), disagreement.tail<3>().norm());
+}
+
+/** Where the motion during the sweep is not measured but part of what is sought, scan and pose
+ * follow from one another. */
+LidarOdometry::Located LidarOdometry::locateAlone(double stamp, const FilteredScan& scan,
+                                                  bool anywhere) {
+  constexpr int kPasses = 6;
+  constexpr double kSmallM = 0.01;
+  const double seconds = stamp - poses_.back().stamp;
+  MotionPrior motion = constantVelocity(seconds);
+  if (scan.time.empty()) return locate(scan, motion, anywhere);
+  const double sweep = *std::max_element(scan.time.begin(), scan.time.end());
+  const double radius = radiusOf(scan.points);
+  FilteredScan corrected = undistortedBy(logSE3(motion.motion) / seconds, scan);
+  Located located = locate(corrected, motion, anywhere);
+  for (int pass = 1; pass < kPasses && located.tracked; ++pass) {
+    const Vector6d found = logSE3(poses_.back().pose.inverse() * located.odom_T_base) / seconds;
+    const Vector6d change = (found - corrected.twist) * sweep;
+    if (change.head<3>().norm() + radius * change.tail<3>().norm() < kSmallM) break;
+    // Half way: a scan that is bent too far the one way gives a motion that bends it as far the
+    // other way.
+    corrected = undistortedBy(pass < 3 ? found : Vector6d(0.5 * (corrected.twist + found)), scan);
+    located = locate(corrected, motion, false, located.registered);
+  }
+  located.points = std::move(corrected.points);
+  return located;
+}
+
+void LidarOdometry::begin(double stamp, const FilteredScan& scan) {
+  planar_ = scan.planar;
+  map_ = std::make_unique<LocalMap>(leafFor(scan), planar_);
+  poses_.push_back({stamp, Pose3::Identity()});
+  map_->add(scan.points, Pose3::Identity(), scan.origin, 0);
+  inserted_at_ = Pose3::Identity();
+  reference_ = {Pose3::Identity(), scan.points};
+}
+
+/** From nearby first: what lies farther off only confuses where the prediction is good. Where that
+ * does not suffice, by more and more effort. */
+ScanToMapResult LidarOdometry::search(const FilteredScan& scan, const Pose3& predicted,
+                                      double error_m, bool anywhere) {
+  ScanToMapResult best = registerToMap(scan.points, *map_, predicted, std::min(kNearM, error_m));
+  const auto look = [&](const Pose3& start, double error) {
+    const ScanToMapResult other = registerToMap(scan.points, *map_, start, error);
+    if (other.converged && (!best.converged || other.matched_share > best.matched_share))
+      best = other;
+  };
+  const auto good = [&] { return best.converged && best.matched_share >= kGoodShare; };
+  if (!good() && error_m > kNearM) look(predicted, std::min(kMaxErrorM, error_m));
+  if (!good() && anywhere && error_m > kNearM)
+    for (const Pose3& start : starts(scan, predicted)) look(start, kNearM);
+  return best;
+}
+
+/** Poses that no prediction is needed for: in space by descriptors, against the last scan that was
+ * tracked; in the plane, turned from the prediction. */
+std::vector<Pose3> LidarOdometry::starts(const FilteredScan& scan, const Pose3& predicted) const {
+  std::vector<Pose3> result;
+  if (planar_) {
+    for (const double degrees : {15, -15, 30, -30, 45, -45, 60, -60})
+      result.push_back(predicted * planarPose(0, 0, degrees * kDegree));
+    return result;
+  }
+  const PreparedScanPtr source = prepared(scan.points, false);
+  const PreparedScanPtr target = prepared(reference_.points, false);
+  for (const GlobalPose& pose : alignByConsistency(source->features(), target->features(),
+                                                   std::nullopt, ConsistencyOptions()))
+    result.push_back(reference_.odom_T_base * pose.target_T_source);
+  return result;
+}
+
+/** The scan decides where the surfaces hold it, the prediction where they do not.
+ * \param anywhere also looks where no prediction points to, if need be.
+ * \param nearby a pose that lies closer than what the prediction can promise. */
+LidarOdometry::Located LidarOdometry::locate(const FilteredScan& scan, const MotionPrior& motion,
+                                             bool anywhere, const std::optional<Pose3>& nearby) {
+  Located located;
+  const Pose3 predicted = poses_.back().pose * motion.motion;
+  const Matrix6d Ad = adjoint(motion.motion.inverse());
+  const Matrix6d P = Ad * covariance_.pose() * Ad.transpose() + motion.covariance;
+  located.prediction = motion;
+  located.odom_T_base = predicted;
+
+  if (scan.planar != planar_) return located;
+  const Vector6d sigmas = P.diagonal().cwiseSqrt();
+  const double error =
+      kSigmas * (sigmas.head<3>().maxCoeff() + sigmas.tail<3>().maxCoeff() * radiusOf(scan.points));
+  const ScanToMapResult found = nearby ? registerToMap(scan.points, *map_, *nearby, 0)
+                                       : search(scan, predicted, error, anywhere);
+  located.registered = found.map_T_scan;
+  located.matched_share = found.matched_share;
+  located.deviation_m = found.deviation_m;
+  located.tracked = found.converged && found.matched_share >= options.min_matched_share;
+  if (!located.tracked) return located;
+
+  located.information =
+      registrationInformation(found.surface, found.map_T_scan, options.information, planar_)
+          .information;
+  if (planar_) located.information = inPlane(located.information);
+  const Matrix6d& information = located.information;
+  located.innovation = logSE3(predicted.inverse() * found.map_T_scan);
+  // S⁻¹ = (P + I⁻¹)⁻¹ = I (1 + P I)⁻¹, which needs no inverse of what may be singular.
+  located.expected = information * (Matrix6d::Identity() + P * information).inverse();
+  located.surprise = surpriseOf(located.innovation, located.expected);
+  // What all patches have in common is common to the scans in the map, too. It counts nothing here,
+  // or the map would follow a source that errs evenly.
+  RegistrationInformationOptions apart = options.information;
+  apart.common_share = kCommonShareInMap;
+  Matrix6d sharp =
+      registrationInformation(found.surface, found.map_T_scan, apart, planar_).information;
+  if (planar_) sharp = inPlane(sharp);
+  located.odom_T_base = normalized(
+      predicted * expSE3(Vector6d(P * sharp * (Matrix6d::Identity() + P * sharp).inverse() *
+                                  located.innovation)));
+  return located;
+}
+
+/** A source that errs by more than it says gets less weight; one that errs the same way again and
+ * again would drag the map along, so that what it says of several scans together counts, too. */
+void LidarOdometry::judgePrior(const Located& located) {
+  if (!located.tracked) return;
+  surprises_.push_back(located.surprise);
+  innovations_ += located.innovation;
+  expected_ += located.expected;
+  if (surprises_.size() < kSurprises) return;
+  const auto count = static_cast<double>(surprises_.size());
+  const double together = surpriseOf(innovations_ / std::sqrt(count), expected_ / count);
+  const double typical = std::max(medianOf(surprises_), together);
+  surprises_.clear();
+  innovations_.setZero();
+  expected_.setZero();
+  if (typical > kExpectedSurprise)
+    prior_scale_ = std::min(kMaxScale, prior_scale_ * typical);
+  else if (prior_scale_ > 1)
+    prior_scale_ = std::max(1.0, prior_scale_ * std::max(0.5, typical / kExpectedSurprise));
+}
+
+void LidarOdometry::accept(double stamp, const FilteredScan& scan, const Located& located) {
+  const Pose3 motion = poses_.back().pose.inverse() * located.odom_T_base;
+  covariance_.predict(located.prediction.motion, located.prediction.covariance);
+  covariance_.update(located.information);
+  last_motion_ = motion;
+  last_motion_s_ = stamp - poses_.back().stamp;
+  travelled_m_ += motion.translation().norm();
+  path_since_kept_m_ += motion.translation().norm();
+  poses_.push_back({stamp, located.odom_T_base});
+  while (poses_.size() > 2 && poses_[1].stamp <= stamp - kKeptS) poses_.pop_front();
+
+  if (located.tracked)
+    usual_share_ +=
+        (usual_share_ > 0 ? kShareMemory : 1.0) * (located.matched_share - usual_share_);
+  lost_in_a_row_ = located.tracked ? 0 : lost_in_a_row_ + 1;
+  lost_s_ = located.tracked ? 0 : lost_s_ + last_motion_s_;
+  if (!located.tracked && lost_++ == 0) first_lost_ = stamp;
+  if (lost_in_a_row_ >= kLostForGood && scan.points.size() >= kFewestPoints) {
+    map_ = std::make_unique<LocalMap>(leafFor(scan), planar_);
+    inserted_at_.reset();
+  }
+  if (located.tracked || !inserted_at_) {
+    reference_ = {located.odom_T_base, scan.points};
+    extendMap(scan, located);
+  }
+}
+
+void LidarOdometry::extendMap(const FilteredScan& scan, const Located& located) {
+  const Pose3 since =
+      inserted_at_ ? Pose3(inserted_at_->inverse() * located.odom_T_base) : Pose3::Identity();
+  if (inserted_at_ && since.translation().norm() < options.insert_distance_m &&
+      rotationAngle(since) < options.insert_angle_deg * kDegree)
+    return;
+  inserted_at_ = located.odom_T_base;
+  map_->add(scan.points, located.odom_T_base, scan.origin, travelled_m_);
+  map_->forget(travelled_m_ - kRememberedM, located.odom_T_base.translation().cast<float>(),
+               static_cast<float>(kReach) * farthest(scan.points));
+}
+
+std::vector<std::string> LidarOdometry::warnings() const {
+  std::vector<std::string> result;
+  if (lost_ > 0)
+    result.push_back(std::to_string(lost_) + " of " + std::to_string(scans_) +
+                     " scans could not be registered to the local map, the first of them at " +
+                     formatFixed(*first_lost_, 3) +
+                     ": their motion is that of another odometry source, or what the robot did "
+                     "before");
+  if (contradicted_ > 0)
+    result.push_back("the lidar contradicts the recorded odometry in " +
+                     std::to_string(contradicted_) + " of " + std::to_string(scans_) +
+                     " scans, the first of them at " + formatFixed(*first_contradicted_, 3) +
+                     ": their motion is that of the lidar alone");
+  return result;
+}
+
+}  // namespace lamp

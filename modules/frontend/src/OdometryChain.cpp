@@ -1,0 +1,104 @@
+#include "OdometryChain.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace lamp {
+
+namespace {
+
+/** Scan odometry does not wait longer than this for what another source says of a scan; keyed scans
+ * are seconds apart. Seconds of the recording. */
+constexpr double kPatienceS = 1.0, kKeyedPatienceS = 10.0;
+
+}  // namespace
+
+OdometryChain::OdometryChain(std::vector<std::shared_ptr<OdometrySource>> sources, bool keyed,
+                             const MotionModelOptions& motion)
+    : keyed_(keyed), motion_(motion) {
+  for (auto& source : sources) {
+    auto tracker = std::dynamic_pointer_cast<ScanOdometry>(source);
+    if (tracker && !tracker_)
+      tracker_ = std::move(tracker);
+    else
+      others_.push_back(std::move(source));
+  }
+  if (!tracker_) tracks_ = false;
+  if (others_.empty()) tracks_ = true;
+}
+
+void OdometryChain::observe(const InputObservation& observation) {
+  newest_ = std::max(newest_, observation.stamp);
+  if (tracker_) tracker_->observe(observation);
+  for (const auto& source : others_) source->observe(observation);
+}
+
+/** The first of the others that knows anything. */
+OdometrySource* OdometryChain::recorded() const {
+  for (const auto& source : others_)
+    if (source->covers(0)) return source.get();
+  return others_.empty() ? nullptr : others_.front().get();
+}
+
+OdometrySource& OdometryChain::main() const {
+  return tracks() ? *tracker_ : *recorded();
+}
+
+bool OdometryChain::ready(double stamp) {
+  const OdometrySource* const other = recorded();
+  const bool covered = other && other->covers(stamp);
+  const bool waited = newest_ > stamp + (keyed_ ? kKeyedPatienceS : kPatienceS);
+  if (!tracks_ && (covered || waited)) tracks_ = !keyed_ || !covered;
+  return covered || (tracks() && (waited || others_.empty()));
+}
+
+void OdometryChain::finish() {
+  if (!tracks_) tracks_ = !keyed_ || !recorded()->covers(0);
+}
+
+bool OdometryChain::recordedKnows(double from, double to) const {
+  const OdometrySource* const other = recorded();
+  return other && other->knows(from) && other->knows(to) && other->covers(std::max(from, to));
+}
+
+std::optional<Pose3> OdometryChain::recordedPose(double stamp) const {
+  if (!recordedKnows(stamp, stamp)) return std::nullopt;
+  return recorded()->poseAt(stamp);
+}
+
+Pose3 OdometryChain::motion(double from, double to) const {
+  if (recordedKnows(from, to)) return recorded()->poseAt(from).inverse() * recorded()->poseAt(to);
+  if (!tracks()) return main().poseAt(from).inverse() * main().poseAt(to);
+  return tracker_->predictedMotion(from).inverse() * tracker_->predictedMotion(to);
+}
+
+std::optional<MotionPrior> OdometryChain::prior(double from, double to) const {
+  if (!recordedKnows(from, to)) return std::nullopt;
+  OdometrySource& source = *recorded();
+  const Pose3 motion = source.poseAt(from).inverse() * source.poseAt(to);
+  const auto covariance = source.covarianceBetween(from, to);
+  return MotionPrior{motion, source.doubtBetween(from, to) +
+                                 (covariance ? *covariance : stepCovariance(motion, motion_))};
+}
+
+Pose3 OdometryChain::track(double stamp, FilteredScan& scan) {
+  const auto prior = last_ ? this->prior(*last_, stamp) : std::nullopt;
+  last_ = stamp;
+  return tracker_->track(stamp, prior, scan);
+}
+
+bool OdometryChain::planar() const {
+  const OdometrySource* const other = recorded();
+  return !other || other->planar();
+}
+
+std::vector<std::string> OdometryChain::warnings() const {
+  std::vector<std::string> result;
+  for (const auto& source : others_)
+    for (std::string& warning : source->warnings()) result.push_back(std::move(warning));
+  if (tracker_)
+    for (std::string& warning : tracker_->warnings()) result.push_back(std::move(warning));
+  return result;
+}
+
+}  // namespace lamp
