@@ -165,6 +165,15 @@ TEST_F(BadInput, UnknownClassInTheStream) {
 
 TEST_F(BadInput, NoOdometry) {
   const LampResult end = run(without<mrpt::obs::CObservationRobotPose>(good_));
+  EXPECT_EQ(end.exit_code, 0) << "the lidar tells the motion, too";
+  EXPECT_THAT(end.err, HasSubstr("robot 'A': no odometry"));
+}
+
+TEST_F(BadInput, NoOdometryAndNotTheLidarsEither) {
+  const LampResult end = experiment_.run(
+      {experiment_.file("experiment.ini", iniFor3d()),
+       experiment_.rawlog("A.rawlog", without<mrpt::obs::CObservationRobotPose>(good_)), "--set",
+       "pipeline.odometry=RecordedOdometry"});
   EXPECT_EQ(end.exit_code, kFailed);
   EXPECT_THAT(end.err, AllOf(HasSubstr("no key node"), HasSubstr("robot 'A'"),
                              HasSubstr("no odometry covers them")));

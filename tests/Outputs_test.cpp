@@ -252,8 +252,10 @@ TEST_F(Outputs, KeyedScansOpenInRawlogEdit) {
 }
 
 TEST_F(Outputs, KeyedScansCanBeMappedAgain) {
-  const LampResult end = experiment_.run(
-      {experiment_.file("again.ini", iniFor3d()), run().folder().keyNodes("A")}, "again");
+  const LampResult end =
+      experiment_.run({experiment_.file("again.ini", iniFor3d()), run().folder().keyNodes("A"),
+                       "--set", "frontend.keyed=true"},
+                      "again");
   ASSERT_EQ(end.exit_code, 0) << end.err;
   const auto first = run().keyNodes("A"), again = experiment_.result("again").keyNodes("A");
   ASSERT_EQ(again.size(), first.size());

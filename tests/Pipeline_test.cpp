@@ -77,7 +77,8 @@ TEST_P(Planar, LoopClosesInThePlane) {
   const Recording recording = pairs ? driver.recordPlanarPairs(world) : driver.recordPlanar(world);
   const Experiment experiment;
   const LampResult end = experiment.run({experiment.file("planar.ini", iniForPlanar()),
-                                         experiment.rawlog("A.rawlog", recording.objects)});
+                                         experiment.rawlog("A.rawlog", recording.objects), "--set",
+                                         "pipeline.odometry=RecordedOdometry"});
   ASSERT_EQ(end.exit_code, 0) << end.err;
 
   const FinishedRun run = experiment.result();
@@ -101,7 +102,8 @@ INSTANTIATE_TEST_SUITE_P(RawlogFormats, Planar, testing::Bool(), [](const auto& 
 });
 
 TEST_F(TwoRobots, JoinFromAWrongStartPose) {
-  const LampResult end = run(iniFor3d("", startSections()));
+  const LampResult end =
+      run(iniFor3d("", startSections()), {"--set", "pipeline.odometry=RecordedOdometry"});
   ASSERT_EQ(end.exit_code, 0) << end.err;
 
   const FinishedRun result = experiment_.result();

@@ -36,7 +36,8 @@ TEST(Recordings, SenaClosesItsLoop) {
   if (mrptRecording("2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog").empty())
     GTEST_SKIP() << "the recording is in Debian's package mrpt-common";
   const Experiment experiment;
-  const std::vector<std::string> common = {ini("sena.ini"), "--set", "pipeline.exporters=Ply"};
+  const std::vector<std::string> common = {ini("sena.ini"), "--set", "pipeline.exporters=Ply",
+                                           "--set", "pipeline.odometry=RecordedOdometry"};
   const LampResult end = experiment.run(common);
   ASSERT_EQ(end.exit_code, 0) << end.err;
   auto without_loops = common;
@@ -115,11 +116,16 @@ TEST(Recordings, AcesBeatsItsOdometryFourTimes) {
   if (!std::filesystem::exists(folder + "aces.rawlog"))
     GTEST_SKIP() << folder << " is missing; set LAMP_DATA to the folder of recordings";
   const Experiment experiment;
-  const LampResult end =
-      experiment.run({ini("aces.ini"), folder + "aces.rawlog", "--set", "pipeline.exporters="});
-  ASSERT_EQ(end.exit_code, 0) << end.err;
-  const FinishedRun run = experiment.result();
-  EXPECT_EQ(run.summary()["robots"][0]["scans"], 7374);
+  const auto mapped = [&](const std::string& odometry) {
+    const LampResult end =
+        experiment.run({ini("aces.ini"), folder + "aces.rawlog", "--set",
+                        "pipeline.exporters=", "--set", "pipeline.odometry=" + odometry},
+                       odometry);
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    return experiment.result(odometry);
+  };
+  const FinishedRun run = mapped("RecordedOdometry");
+  ASSERT_EQ(run.summary()["robots"][0]["scans"], 7374);
 
   const std::string stamps = folder + "aces.scan_stamps.txt";
   const auto relations = readRelations(folder + "aces.relations");
@@ -144,6 +150,12 @@ TEST(Recordings, AcesBeatsItsOdometryFourTimes) {
   EXPECT_NEAR(before, 0.55, 0.03) << "what data-notes.md says of odometry alone";
   EXPECT_LT(optimised.all.translation_m.mean, before / 4);
   EXPECT_LT(optimised.from_5_s.translation_m.mean, odometry.from_5_s.translation_m.mean / 4);
+
+  const FinishedRun by_lidar = mapped("LidarOdometry,RecordedOdometry");
+  EXPECT_LT(errorsOf(by_lidar.odometry("aces")).all.translation_m.mean, before / 2)
+      << "the lidar's odometry";
+  EXPECT_LT(errorsOf(by_lidar.trajectory("aces")).all.translation_m.mean,
+            optimised.all.translation_m.mean);
 }
 
 }  // namespace

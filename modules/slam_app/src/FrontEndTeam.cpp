@@ -1,11 +1,26 @@
 #include "FrontEndTeam.h"
 
+#include <cmath>
+
 #include "lamp/frontend/StartPose.h"
 
 namespace lamp {
 
-FrontEndTeam::FrontEndTeam(const SlamConfig& config, MessageSender& sender)
-    : config_(config), sender_(sender) {}
+namespace {
+
+std::string describe(const ApertureSurvey::Correction& aperture) {
+  const auto degrees = [](double value) { return std::to_string(std::lround(value)); };
+  return "the 2D laser's field of view is recorded as " + degrees(aperture.recorded_deg) +
+         " deg, but its scans turn against odometry as if it were about " +
+         degrees(aperture.seen_deg) + " deg: it is taken to be " + degrees(aperture.corrected_deg) +
+         " deg; [frontend] laser_aperture_deg overrides this";
+}
+
+}  // namespace
+
+FrontEndTeam::FrontEndTeam(const SlamConfig& config, MessageSender& sender,
+                           std::map<RobotId, ApertureSurvey::Correction> apertures)
+    : config_(config), sender_(sender), apertures_(std::move(apertures)) {}
 
 FrontEnd& FrontEndTeam::of(RobotId robot) {
   const auto found = front_ends_.find(robot);
@@ -19,9 +34,12 @@ FrontEnd& FrontEndTeam::of(RobotId robot) {
     if (config_.robots[robot.value].startsAtGate())
       gate_starts_.try_emplace(robot, config_.gate, config_.frontend.scan);
   }
+  FrontEndOptions options = config_.frontend;
+  const auto aperture = apertures_.find(robot);
+  if (aperture != apertures_.end())
+    options.scan.laser_aperture_deg = aperture->second.corrected_deg;
   return front_ends_
-      .try_emplace(robot, robot, config_.frontend, config_.makeOne<OdometrySource>(),
-                   std::move(prior))
+      .try_emplace(robot, robot, options, config_.make<OdometrySource>(), std::move(prior))
       .first->second;
 }
 
@@ -58,6 +76,8 @@ std::vector<FrontEndReport> FrontEndTeam::reports() const {
   std::vector<FrontEndReport> result;
   for (const auto& [robot, front_end] : front_ends_) {
     result.push_back({robot, front_end.counts(), front_end.warnings()});
+    const auto aperture = apertures_.find(robot);
+    if (aperture != apertures_.end()) result.back().warnings.push_back(describe(aperture->second));
     const auto gate = gate_starts_.find(robot);
     if (gate == gate_starts_.end()) continue;
     for (const std::string& warning : gate->second.warnings())

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "lamp/frontend/ApertureSurvey.h"
 #include "lamp/frontend/FrontEnd.h"
 #include "lamp/frontend/GateStart.h"
 #include "lamp/slam_app/RunWriter.h"
@@ -16,7 +17,9 @@ namespace lamp {
 /** The front ends of all robots, made as the robots appear in the input. */
 class FrontEndTeam {
  public:
-  FrontEndTeam(const SlamConfig& config, MessageSender& sender);
+  /** \param apertures of 2D lasers that are recorded wrongly. */
+  FrontEndTeam(const SlamConfig& config, MessageSender& sender,
+               std::map<RobotId, ApertureSurvey::Correction> apertures = {});
 
   /** Takes the team's observations in time order.
    *  \return false if nobody receives the key nodes any more. */
@@ -31,6 +34,7 @@ class FrontEndTeam {
 
   const SlamConfig& config_;
   MessageSender& sender_;
+  const std::map<RobotId, ApertureSurvey::Correction> apertures_;
   std::map<RobotId, FrontEnd> front_ends_;
   std::map<RobotId, GateStart> gate_starts_;  ///< of robots that start at the gate
 };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <thread>
 
+#include "RunLogging.h"
 #include "lamp/core/Program.h"
 #include "lamp/core/Version.h"
 #include "lamp/slam_app/SlamRun.h"
@@ -15,24 +16,6 @@ namespace lamp {
 namespace {
 
 std::atomic<bool> interrupted{false};
-
-/** MRPT's loggers print warnings on stdout, which is for results. While it lives, stderr gets what
- * is written to stdout. */
-class StdoutToStderr {
- public:
-  StdoutToStderr() : stdout_(std::cout.rdbuf(std::cerr.rdbuf())) {}
-  ~StdoutToStderr() { std::cout.rdbuf(stdout_); }
-  StdoutToStderr(const StdoutToStderr&) = delete;
-  StdoutToStderr& operator=(const StdoutToStderr&) = delete;
-
- private:
-  std::streambuf* const stdout_;
-};
-
-SlamRun::Outcome runLogged(SlamRun& slam) {
-  const StdoutToStderr logs;
-  return slam.run();
-}
 
 struct Arguments {
   std::string config;
@@ -47,12 +30,6 @@ struct Arguments {
   bool dump_config = false;
   bool dump_parameters = false;
 };
-
-const std::map<std::string, mrpt::system::VerbosityLevel> kLevels = {
-    {"DEBUG", mrpt::system::LVL_DEBUG},
-    {"INFO", mrpt::system::LVL_INFO},
-    {"WARN", mrpt::system::LVL_WARN},
-    {"ERROR", mrpt::system::LVL_ERROR}};
 
 void describe(CLI::App& app, Arguments& arguments) {
   app.description(
@@ -120,13 +97,10 @@ void run(const Arguments& arguments) {
   SlamRun::Job job{arguments.out, arguments.threads, {}};
   if (!arguments.actions.empty()) job.actions = readActions(arguments.actions);
   SlamRun slam(std::move(config), std::move(job), interrupted);
-  slam.setMinLoggingLevel(kLevels.at(arguments.log));
+  slam.setMinLoggingLevel(kLogLevels.at(arguments.log));
   const SlamRun::Outcome outcome = runLogged(slam);
   std::cout << outcome.text;
-  if (outcome.not_written.empty()) return;
-  std::string text = "not everything could be written to '" + arguments.out + "':";
-  for (const std::string& failure : outcome.not_written) text += "\n  " + failure;
-  throw std::runtime_error(text);
+  requireAllWritten(outcome, arguments.out);
 }
 
 }  // namespace

@@ -127,8 +127,11 @@ void BaseStationOptions::visit(OptionVisitor& v) {
 SlamConfig SlamConfig::fromFile(const std::string& path, const std::vector<std::string>& overrides,
                                 const std::vector<std::string>& rawlogs) {
   Faults faults;
-  Ini ini = Ini::fromFile(path, faults);
-  anchorPaths(ini, fs::absolute(path).parent_path());
+  Ini ini;
+  if (!path.empty()) {
+    ini = Ini::fromFile(path, faults);
+    anchorPaths(ini, fs::absolute(path).parent_path());
+  }
   for (const std::string& assignment : overrides) ini.set(assignment, faults);
   SlamConfig config(std::move(ini), std::move(faults));
   config.input.rawlogs.insert(config.input.rawlogs.end(), rawlogs.begin(), rawlogs.end());

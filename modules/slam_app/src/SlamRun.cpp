@@ -11,6 +11,7 @@
 
 #include "Delivery.h"
 #include "FrontEndTeam.h"
+#include "LaserApertures.h"
 #include "RunDescription.h"
 #include "TeamArrivals.h"
 #include "WorldFrame.h"
@@ -154,7 +155,7 @@ SlamRun::Outcome SlamRun::run() {
   BaseStation base_station(local_.makeBaseStationSetup(), timer);
   base_station.setMinLoggingLevel(getMinLoggingLevel());
 
-  FrontEndTeam team(local_, queue);
+  FrontEndTeam team(local_, queue, measureApertures(local_));
   {
     Progress progress;
     const CTimeLoggerEntry timing(timer, "run");

@@ -19,8 +19,9 @@ const std::vector<StageKind>& stageKinds() {
   using P = PipelineOptions;
   using C = StageCount;
   static const std::vector<StageKind> kinds = {
-      {"odometry", "odometry source", "odometry source", CLASS_ID(OdometrySource), &P::odometry,
-       C::kExactlyOne},
+      {"odometry", "odometry source",
+       "odometry sources in order of preference; LidarOdometry uses the others as a prior",
+       CLASS_ID(OdometrySource), &P::odometry, C::kAtLeastOne},
       {"candidates", "candidate generator",
        "candidate generators; with none, the map follows odometry alone",
        CLASS_ID(CandidateGenerator), &P::candidates, C::kAny},

@@ -46,6 +46,7 @@ Json robotSummary(const RunResult& result, RobotId robot) {
     if (report.robot != robot) continue;
     json["scans"] = report.counts.scans;
     json["scans_without_odometry"] = report.counts.without_odometry;
+    json["scans_tracked"] = report.counts.tracked_scans;
     json["empty_scans"] = report.counts.empty_scans;
     json["warnings"] = report.warnings;
   }

@@ -50,8 +50,11 @@ TEST(FrontEndTeam, TheFirstRobotWithAStartPoseTiesTheTeam) {
     EXPECT_TRUE(team.observe(wheels({r}, 100 + r)));
     EXPECT_TRUE(team.observe(cloud({r}, 100 + r)));
   }
-  ASSERT_EQ(mailbox.messages.size(), 4u);
-  const auto prior = [&](size_t i) { return std::get<KeyNodePacket>(mailbox.messages[i]).prior; };
+  team.finish();
+  ASSERT_EQ(mailbox.messages.size(), 8u) << "a key node and an end of each robot";
+  const auto prior = [&](size_t i) {
+    return std::get<KeyNodePacket>(mailbox.messages[2 * i]).prior;
+  };
   EXPECT_FALSE(prior(0));
   EXPECT_FALSE(prior(3));
   ASSERT_TRUE(prior(1) && prior(2));
@@ -87,7 +90,7 @@ TEST(FrontEndTeam, ClosesEachRobotsStream) {
   }
   team.finish();
   ASSERT_EQ(mailbox.messages.size(), 4u);
-  EXPECT_EQ(std::get<RobotEnd>(mailbox.messages[2]).robot, kA);
+  EXPECT_EQ(std::get<RobotEnd>(mailbox.messages[1]).robot, kA);
   EXPECT_EQ(std::get<RobotEnd>(mailbox.messages[3]).robot, kB);
   const auto reports = team.reports();
   ASSERT_EQ(reports.size(), 2u);
@@ -116,8 +119,12 @@ TEST(FrontEndTeam, StopsWhenNobodyReceives) {
   Mailbox mailbox;
   mailbox.limit = 0;
   FrontEndTeam team(config, mailbox);
-  team.observe(wheels(kA, 100));
-  EXPECT_FALSE(team.observe(cloud(kA, 100)));
+  bool received = true;
+  for (int i = 0; i < 10 && received; ++i) {
+    team.observe(wheels(kA, 100 + i));
+    received = team.observe(cloud(kA, 100 + i));
+  }
+  EXPECT_FALSE(received);
 }
 
 }  // namespace
