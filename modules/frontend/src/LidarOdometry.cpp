@@ -56,6 +56,8 @@ constexpr int kBelieved = 3;
 /** A scan that fits matches at least this part of what scans usually do. */
 constexpr double kUsualPart = 0.9;
 constexpr double kShareMemory = 0.05;
+/** Of a scan that is aligned without a guess. */
+constexpr int kNormalNeighbors = 10;
 /** After so many scans that match nothing the map is begun anew. */
 constexpr size_t kLostForGood = 10;
 /** A map begins with a scan of so many points. */
@@ -97,12 +99,6 @@ float leafFor(const FilteredScan& scan) {
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return std::clamp(*middle, scan.planar ? kLeastPlanarLeafM : kLeastLeafM, kMostLeafM);
-}
-
-/** Features of a scan, for alignment without a guess. */
-PreparedScanPtr prepared(const std::vector<Eigen::Vector3f>& points, bool planar) {
-  constexpr int kNormalNeighbors = 10;
-  return prepareScan(points, kNormalNeighbors, planar);
 }
 
 /** The scan as another motion during its sweep makes it. */
@@ -240,7 +236,9 @@ Pose3 LidarOdometry::track(double stamp, const std::optional<MotionPrior>& prior
                            FilteredScan& scan) {
   ++scans_;
   if (poses_.empty()) {
-    if (scan.points.size() >= kFewestPoints) begin(stamp, scan);
+    planar_ = scan.planar;
+    poses_.push_back({stamp, Pose3::Identity()});
+    beginMap(scan, Pose3::Identity());
     return Pose3::Identity();
   }
   Located best = prior ? locate(scan, weighed(*prior), false) : locateAlone(stamp, scan, true);
@@ -320,13 +318,13 @@ LidarOdometry::Located LidarOdometry::locateAlone(double stamp, const FilteredSc
   return located;
 }
 
-void LidarOdometry::begin(double stamp, const FilteredScan& scan) {
-  planar_ = scan.planar;
+/** Not of a scan that shows too little: until one shows more, the robot follows the other source.
+ */
+void LidarOdometry::beginMap(const FilteredScan& scan, const Pose3& odom_T_base) {
+  if (scan.points.size() < kFewestPoints) return;
   map_ = std::make_unique<LocalMap>(leafFor(scan), planar_);
-  poses_.push_back({stamp, Pose3::Identity()});
-  map_->add(scan.points, Pose3::Identity(), scan.origin, 0);
-  inserted_at_ = Pose3::Identity();
-  reference_ = {Pose3::Identity(), scan.points};
+  inserted_at_.reset();
+  extendMap(scan, odom_T_base);
 }
 
 /** From nearby first: what lies farther off only confuses where the prediction is good. Where that
@@ -355,8 +353,8 @@ std::vector<Pose3> LidarOdometry::starts(const FilteredScan& scan, const Pose3& 
       result.push_back(predicted * planarPose(0, 0, degrees * kDegree));
     return result;
   }
-  const PreparedScanPtr source = prepared(scan.points, false);
-  const PreparedScanPtr target = prepared(reference_.points, false);
+  const PreparedScanPtr source = prepareScan(scan.points, kNormalNeighbors, false);
+  const PreparedScanPtr target = prepareScan(reference_.points, kNormalNeighbors, false);
   for (const GlobalPose& pose : alignByConsistency(source->features(), target->features(),
                                                    std::nullopt, ConsistencyOptions()))
     result.push_back(reference_.odom_T_base * pose.target_T_source);
@@ -375,7 +373,7 @@ LidarOdometry::Located LidarOdometry::locate(const FilteredScan& scan, const Mot
   located.prediction = motion;
   located.odom_T_base = predicted;
 
-  if (scan.planar != planar_) return located;
+  if (!map_ || scan.planar != planar_) return located;
   const Vector6d sigmas = P.diagonal().cwiseSqrt();
   const double error =
       kSigmas * (sigmas.head<3>().maxCoeff() + sigmas.tail<3>().maxCoeff() * radiusOf(scan.points));
@@ -383,7 +381,6 @@ LidarOdometry::Located LidarOdometry::locate(const FilteredScan& scan, const Mot
                                        : search(scan, predicted, error, anywhere);
   located.registered = found.map_T_scan;
   located.matched_share = found.matched_share;
-  located.deviation_m = found.deviation_m;
   located.tracked = found.converged && found.matched_share >= options.min_matched_share;
   if (!located.tracked) return located;
 
@@ -396,8 +393,8 @@ LidarOdometry::Located LidarOdometry::locate(const FilteredScan& scan, const Mot
   // S⁻¹ = (P + I⁻¹)⁻¹ = I (1 + P I)⁻¹, which needs no inverse of what may be singular.
   located.expected = information * (Matrix6d::Identity() + P * information).inverse();
   located.surprise = surpriseOf(located.innovation, located.expected);
-  // What all patches have in common is common to the scans in the map, too. It counts nothing here,
-  // or the map would follow a source that errs evenly.
+  // What all patches have in common is mostly common to the scans in the map, too. It counts little
+  // here, or the map would follow a source that errs evenly.
   RegistrationInformationOptions apart = options.information;
   apart.common_share = kCommonShareInMap;
   Matrix6d sharp =
@@ -446,25 +443,22 @@ void LidarOdometry::accept(double stamp, const FilteredScan& scan, const Located
   lost_in_a_row_ = located.tracked ? 0 : lost_in_a_row_ + 1;
   lost_s_ = located.tracked ? 0 : lost_s_ + last_motion_s_;
   if (!located.tracked && lost_++ == 0) first_lost_ = stamp;
-  if (lost_in_a_row_ >= kLostForGood && scan.points.size() >= kFewestPoints) {
-    map_ = std::make_unique<LocalMap>(leafFor(scan), planar_);
-    inserted_at_.reset();
-  }
-  if (located.tracked || !inserted_at_) {
-    reference_ = {located.odom_T_base, scan.points};
-    extendMap(scan, located);
-  }
+  if (!map_ || lost_in_a_row_ >= kLostForGood)
+    beginMap(scan, located.odom_T_base);
+  else if (located.tracked)
+    extendMap(scan, located.odom_T_base);
 }
 
-void LidarOdometry::extendMap(const FilteredScan& scan, const Located& located) {
+void LidarOdometry::extendMap(const FilteredScan& scan, const Pose3& odom_T_base) {
+  reference_ = {odom_T_base, scan.points};
   const Pose3 since =
-      inserted_at_ ? Pose3(inserted_at_->inverse() * located.odom_T_base) : Pose3::Identity();
+      inserted_at_ ? Pose3(inserted_at_->inverse() * odom_T_base) : Pose3::Identity();
   if (inserted_at_ && since.translation().norm() < options.insert_distance_m &&
       rotationAngle(since) < options.insert_angle_deg * kDegree)
     return;
-  inserted_at_ = located.odom_T_base;
-  map_->add(scan.points, located.odom_T_base, scan.origin, travelled_m_);
-  map_->forget(travelled_m_ - kRememberedM, located.odom_T_base.translation().cast<float>(),
+  inserted_at_ = odom_T_base;
+  map_->add(scan.points, odom_T_base, scan.origin, travelled_m_);
+  map_->forget(travelled_m_ - kRememberedM, odom_T_base.translation().cast<float>(),
                static_cast<float>(kReach) * farthest(scan.points));
 }
 

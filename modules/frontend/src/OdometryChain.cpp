@@ -1,7 +1,6 @@
 #include "OdometryChain.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace lamp {
 

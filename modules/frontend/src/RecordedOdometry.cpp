@@ -164,10 +164,9 @@ std::vector<std::string> RecordedOdometry::warnings() const {
   std::vector<std::string> result = continuityWarnings();
   if (ignored_covariances_ > 0)
     result.push_back(
-        "the recorded covariance of the odometry does not grow with the motion: it is "
-        "ignored for " +
+        "the recorded covariance of the odometry does not grow with the motion: it was ignored " +
         std::to_string(ignored_covariances_) +
-        " odometry edges, which use the motion model of [frontend]");
+        " times, and the motion model of [frontend] stands in");
   if (not_finite_ > 0)
     result.push_back(std::to_string(not_finite_) +
                      " odometry readings were dropped: their poses are not finite");

@@ -73,8 +73,8 @@ Scan ScanMerger::merge(const ScanParts& parts, const Motion& motion) {
       if (!scan) continue;
       if (!scan->time.empty()) {
         undistort(*scan, [&](double time) { return motion(part.stamp, part.stamp + time); });
-        sweep_s_ =
-            std::max<double>(sweep_s_, *std::max_element(scan->time.begin(), scan->time.end()));
+        sweep_s_ = std::max(sweep_s_, part.stamp - parts.stamp +
+                                          *std::max_element(scan->time.begin(), scan->time.end()));
       }
       append(*scan, part.stamp == parts.stamp ? Pose3::Identity() : motion(parts.stamp, part.stamp),
              part.stamp - parts.stamp, merged);

@@ -60,7 +60,7 @@ class LidarOdometry : public ScanOdometry {
     Pose3 registered = Pose3::Identity();     ///< `odom_T_base` by the scan alone
     Matrix6d information = Matrix6d::Zero();  ///< from the scan alone, in the tangent space there
     MotionPrior prediction;
-    double matched_share = 0, deviation_m = 0;
+    double matched_share = 0;
     Vector6d innovation = Vector6d::Zero();  ///< from the prediction to the scan's own pose
     Matrix6d expected = Matrix6d::Zero();    ///< inverse of its covariance
     double surprise = 0;  ///< the innovation's, squared, over its degrees of freedom
@@ -69,7 +69,7 @@ class LidarOdometry : public ScanOdometry {
     std::vector<Eigen::Vector3f> points;
   };
 
-  void begin(double stamp, const FilteredScan& scan);
+  void beginMap(const FilteredScan& scan, const Pose3& odom_T_base);
   MotionPrior constantVelocity(double seconds) const;
   MotionPrior weighed(const MotionPrior& prior) const;
   Located locate(const FilteredScan& scan, const MotionPrior& motion, bool anywhere,
@@ -82,7 +82,7 @@ class LidarOdometry : public ScanOdometry {
   void addDoubt(const Vector6d& disagreement);
   void judgePrior(const Located& located);
   void accept(double stamp, const FilteredScan& scan, const Located& located);
-  void extendMap(const FilteredScan& scan, const Located& located);
+  void extendMap(const FilteredScan& scan, const Pose3& odom_T_base);
 
   /** The last scan that was tracked. */
   struct Reference {
@@ -92,7 +92,7 @@ class LidarOdometry : public ScanOdometry {
 
   bool planar_ = true;
   Reference reference_;
-  std::unique_ptr<LocalMap> map_;
+  std::unique_ptr<LocalMap> map_;  ///< none before a scan shows enough
   std::deque<StampedPose> poses_;  ///< of the last scans
   Pose3 last_motion_ = Pose3::Identity();
   double last_motion_s_ = 0;
