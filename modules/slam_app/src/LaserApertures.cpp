@@ -3,7 +3,6 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "lamp/input/RawlogSource.h"
 
@@ -21,11 +20,6 @@ constexpr double kLongestS = 900;
 std::map<RobotId, ApertureSurvey::Correction> measureApertures(const SlamConfig& config) {
   std::map<RobotId, ApertureSurvey::Correction> result;
   if (config.frontend.scan.laser_aperture_deg > 0) return result;
-  const auto& rawlogs = config.input.rawlogs;
-  const bool twice = std::all_of(rawlogs.begin(), rawlogs.end(), [](const std::string& path) {
-    return std::filesystem::is_regular_file(path);
-  });
-  if (!twice) return result;  // a pipe can be read only once
   RobotTable robots;
   RawlogSource source(config.input.rawlogs, config.robots, robots);
   std::map<RobotId, ApertureSurvey> surveys;
