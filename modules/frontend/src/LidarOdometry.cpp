@@ -1,13 +1,15 @@
 #include "lamp/frontend/LidarOdometry.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "GyroRotation.h"
+#include "MapSearch.h"
+#include "Undistortion.h"
 #include "lamp/core/Csv.h"
 #include "lamp/core/KdTree.h"
-#include "lamp/scans/GlobalAlignment.h"
-#include "lamp/scans/PreparedScan.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(ScanOdometry, lamp::OdometrySource, lamp)
 IMPLEMENTS_MRPT_OBJECT(LidarOdometry, lamp::ScanOdometry, lamp)
@@ -41,33 +43,21 @@ constexpr double kStillM = 0.005, kStillRad = 0.1 * kDegree;
 /** Nothing is known better. */
 constexpr double kLeastM = 0.001, kLeastRad = 0.02 * kDegree;
 
-/** Predictions whose error is this much larger than it should be, on average over the degrees of
- * freedom, are doubted; one like the second is wrong. */
-constexpr double kExpectedSurprise = 1.5, kWrongSurprise = 16.0;
-constexpr size_t kSurprises = 20;
-constexpr double kMaxScale = 1e4;
-/** Scans are sought within this first; so great a part of one that matches is enough. */
-constexpr double kNearM = 0.8, kGoodShare = 0.5;
-/** A point may lie so many standard deviations of the prediction off, and never farther. */
-constexpr double kSigmas = 3.0, kMaxErrorM = 3.0;
+/** A prediction whose error is this much larger than it should be, on average over the degrees of
+ * freedom, is wrong. */
+constexpr double kWrongSurprise = 16.0;
+/** A point may lie so many standard deviations of the prediction off. */
+constexpr double kSigmas = 3.0;
 /** Scans in a row that contradict another source before the lidar is believed: a scan taken in a
  * fast turn may err, and nothing is lost, as the next one is registered to the map, too. */
 constexpr int kBelieved = 3;
 /** A scan that fits matches at least this part of what scans usually do. */
 constexpr double kUsualPart = 0.9;
 constexpr double kShareMemory = 0.05;
-/** Of a scan that is aligned without a guess. */
-constexpr int kNormalNeighbors = 10;
 /** After so many scans that match nothing the map is begun anew. */
 constexpr size_t kLostForGood = 10;
 /** A map begins with a scan of so many points. */
 constexpr size_t kFewestPoints = 50;
-
-double medianOf(std::deque<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 float radiusOf(const std::vector<Eigen::Vector3f>& points) {
   double sum = 0;
@@ -103,29 +93,27 @@ float leafFor(const FilteredScan& scan) {
 
 /** The scan as another motion during its sweep makes it. */
 FilteredScan undistortedBy(const Vector6d& twist, FilteredScan scan) {
-  constexpr int kMoments = 16;
-  const auto [first, last] = std::minmax_element(scan.time.begin(), scan.time.end());
-  const float begin = *first, step = std::max(1e-9f, (*last - *first) / kMoments);
-  std::vector<Eigen::Isometry3f> corrections;
-  for (int k = 0; k <= kMoments; ++k) {
-    const double time = begin + step * static_cast<float>(k);
-    corrections.push_back(
-        (expSE3(time * twist) * expSE3(time * scan.twist).inverse()).cast<float>());
-  }
-  for (size_t i = 0; i < scan.points.size(); ++i) {
-    const float place = (scan.time[i] - begin) / step;
-    scan.points[i] = corrections[static_cast<size_t>(
-                         std::lround(std::clamp(place, 0.0f, static_cast<float>(kMoments))))] *
-                     scan.points[i];
-  }
+  const auto correction = [&](double time) {
+    return Pose3(expSE3(time * twist) * expSE3(time * scan.twist).inverse());
+  };
+  undistort(scan.time, correction, scan.points);
   scan.twist = twist;
   return scan;
 }
 
-/** Squared, over the degrees of freedom. \param expected inverse covariance of the innovation. */
-double surpriseOf(const Vector6d& innovation, const Matrix6d& expected) {
-  const auto freedom = static_cast<double>(Eigen::FullPivLU<Matrix6d>(expected).rank());
-  return innovation.dot(expected * innovation) / std::max(1.0, freedom);
+/** Whether a motion is not what a prior says. */
+bool differs(const Pose3& motion, const MotionPrior& prior) {
+  return Innovation{logSE3(prior.motion.inverse() * motion), prior.covariance.inverse()}
+             .surprise() > kWrongSurprise;
+}
+
+/** The same motion with another rotation. */
+void turnBy(const RotationPrior& turn, MotionPrior& prior) {
+  prior.motion.linear() = turn.rotation;
+  prior.covariance.topRightCorner<3, 3>().setZero();
+  prior.covariance.bottomLeftCorner<3, 3>().setZero();
+  prior.covariance.bottomRightCorner<3, 3>() =
+      turn.sigma_rad * turn.sigma_rad * Eigen::Matrix3d::Identity();
 }
 
 /** Without what lies out of the plane: nothing moves there, and nothing is measured. */
@@ -144,6 +132,9 @@ Matrix6d diagonal(double sigma_m, double sigma_rad) {
 }
 
 }  // namespace
+
+LidarOdometry::LidarOdometry() = default;
+LidarOdometry::~LidarOdometry() = default;
 
 void LidarOdometryOptions::visit(OptionVisitor& v) {
   v("min_matched_share", min_matched_share, "",
@@ -215,7 +206,8 @@ Pose3 LidarOdometry::predictedMotion(double stamp) const {
                      (stamp - poses_.back().stamp) / last_motion_s_);
 }
 
-MotionPrior LidarOdometry::constantVelocity(double seconds) const {
+MotionPrior LidarOdometry::constantVelocity(double seconds,
+                                            const std::optional<RotationPrior>& turn) const {
   MotionPrior prior;
   prior.motion = predictedMotion(poses_.back().stamp + seconds);
   if (!(last_motion_s_ > 0)) {
@@ -225,15 +217,11 @@ MotionPrior LidarOdometry::constantVelocity(double seconds) const {
     prior.covariance = diagonal(kStillM + options.max_acceleration_m_s2 * span,
                                 kStillRad + options.max_acceleration_rad_s2 * span);
   }
+  if (turn) turnBy(*turn, prior);
   return prior;
 }
 
-MotionPrior LidarOdometry::weighed(const MotionPrior& prior) const {
-  return {prior.motion, prior_scale_ * prior.covariance};
-}
-
-Pose3 LidarOdometry::track(double stamp, const std::optional<MotionPrior>& prior,
-                           FilteredScan& scan) {
+Pose3 LidarOdometry::track(double stamp, const ScanMotion& known, FilteredScan& scan) {
   ++scans_;
   if (poses_.empty()) {
     planar_ = scan.planar;
@@ -241,32 +229,42 @@ Pose3 LidarOdometry::track(double stamp, const std::optional<MotionPrior>& prior
     beginMap(scan, Pose3::Identity());
     return Pose3::Identity();
   }
-  Located best = prior ? locate(scan, weighed(*prior), false) : locateAlone(stamp, scan, true);
-  if (prior) {
-    judgePrior(best);
-    if (!best.tracked || best.surprise > kWrongSurprise)
-      best = settle(stamp, scan, best);
-    else
-      contradictions_in_a_row_ = 0;
+  Located best = locateBy(stamp, known, scan);
+  if (known.turn) {
+    const auto seen = turnSeenBy(best);
+    if (!seen || contradict(*known.turn, *seen)) {
+      const Located without = locateBy(stamp, {known.recorded, std::nullopt}, scan);
+      if (without.tracked && without.matched_share >= best.matched_share) best = without;
+    }
   }
+  seen_turn_ = turnSeenBy(best);
   if (!best.points.empty()) scan.points = std::move(best.points);
   accept(stamp, scan, best);
   return poses_.back().pose;
 }
 
+LidarOdometry::Located LidarOdometry::locateBy(double stamp, const ScanMotion& known,
+                                               const FilteredScan& scan) {
+  if (!known.recorded) return locateAlone(stamp, known.turn, scan, true);
+  MotionPrior prior = recorded_weight_.weighed(*known.recorded);
+  if (known.turn) turnBy(*known.turn, prior);
+  Located best = locate(scan, prior, false);
+  if (best.tracked) recorded_weight_.judge(best.innovation);
+  if (!best.tracked || best.innovation.surprise() > kWrongSurprise)
+    return settle(stamp, known, scan, best);
+  contradictions_in_a_row_ = 0;
+  return best;
+}
+
 /** The lidar seems to contradict the other source, or matches nothing from where that puts it.
  * Where the robot would be without that source tells which of the two to believe. \param by_prior
  * located from the other source's motion. */
-LidarOdometry::Located LidarOdometry::settle(double stamp, const FilteredScan& scan,
-                                             const Located& by_prior) {
-  Located alone = locateAlone(stamp, scan, false);
-  const bool fits = alone.tracked && alone.surprise < kWrongSurprise &&
+LidarOdometry::Located LidarOdometry::settle(double stamp, const ScanMotion& known,
+                                             const FilteredScan& scan, const Located& by_prior) {
+  Located alone = locateAlone(stamp, known.turn, scan, false);
+  const bool fits = alone.tracked && alone.innovation.surprise() < kWrongSurprise &&
                     alone.matched_share >= std::max(kGoodShare, kUsualPart * usual_share_);
   const MotionPrior& prior = by_prior.prediction;
-  const auto differs = [&](const Pose3& motion, const MotionPrior& from) {
-    return surpriseOf(logSE3(from.motion.inverse() * motion), from.covariance.inverse()) >
-           kWrongSurprise;
-  };
   const Pose3 found = poses_.back().pose.inverse() * alone.registered;
   if (fits && !differs(found, prior)) return alone;
   // No robot moves as that source says, or it was contradicted too often.
@@ -292,21 +290,42 @@ void LidarOdometry::addDoubt(const Vector6d& disagreement) {
   doubt_ += diagonal(disagreement.head<3>().norm(), disagreement.tail<3>().norm());
 }
 
+/** Against the pose before, which the map holds about as well as this one. */
+std::optional<RotationPrior> LidarOdometry::turnSeenBy(const Located& located) const {
+  if (!located.tracked) return std::nullopt;
+  const Eigen::Matrix3d information = located.information.bottomRightCorner<3, 3>();
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information, Eigen::EigenvaluesOnly)
+          .eigenvalues()[0];
+  if (!(least > 0)) return std::nullopt;
+  return RotationPrior{poses_.back().pose.linear().transpose() * located.registered.linear(),
+                       std::sqrt(2 / least)};
+}
+
 /** Where the motion during the sweep is not measured but part of what is sought, scan and pose
- * follow from one another. */
-LidarOdometry::Located LidarOdometry::locateAlone(double stamp, const FilteredScan& scan,
-                                                  bool anywhere) {
+ * follow from one another. What gyros have measured of it stays. */
+LidarOdometry::Located LidarOdometry::locateAlone(double stamp,
+                                                  const std::optional<RotationPrior>& turn,
+                                                  const FilteredScan& scan, bool anywhere) {
   constexpr int kPasses = 6;
   constexpr double kSmallM = 0.01;
   const double seconds = stamp - poses_.back().stamp;
-  MotionPrior motion = constantVelocity(seconds);
+  const MotionPrior motion = constantVelocity(seconds, turn);
   if (scan.time.empty()) return locate(scan, motion, anywhere);
   const double sweep = *std::max_element(scan.time.begin(), scan.time.end());
   const double radius = radiusOf(scan.points);
-  FilteredScan corrected = undistortedBy(logSE3(motion.motion) / seconds, scan);
+  const auto twistOf = [&](const Pose3& found) {
+    Vector6d twist = logSE3(found) / seconds;
+    if (turn) twist.tail<3>() = scan.twist.tail<3>();
+    return twist;
+  };
+  FilteredScan corrected = undistortedBy(twistOf(motion.motion), scan);
   Located located = locate(corrected, motion, anywhere);
-  for (int pass = 1; pass < kPasses && located.tracked; ++pass) {
-    const Vector6d found = logSE3(poses_.back().pose.inverse() * located.odom_T_base) / seconds;
+  for (int pass = 1; pass < kPasses; ++pass) {
+    // A scan that is bent much may not settle yet, and still tell the way.
+    if (located.matched_share < options.min_matched_share) break;
+    const Vector6d found = twistOf(poses_.back().pose.inverse() *
+                                   (located.tracked ? located.odom_T_base : located.registered));
     const Vector6d change = (found - corrected.twist) * sweep;
     if (change.head<3>().norm() + radius * change.tail<3>().norm() < kSmallM) break;
     // Half way: a scan that is bent too far the one way gives a motion that bends it as far the
@@ -327,40 +346,6 @@ void LidarOdometry::beginMap(const FilteredScan& scan, const Pose3& odom_T_base)
   extendMap(scan, odom_T_base);
 }
 
-/** From nearby first: what lies farther off only confuses where the prediction is good. Where that
- * does not suffice, by more and more effort. */
-ScanToMapResult LidarOdometry::search(const FilteredScan& scan, const Pose3& predicted,
-                                      double error_m, bool anywhere) {
-  ScanToMapResult best = registerToMap(scan.points, *map_, predicted, std::min(kNearM, error_m));
-  const auto look = [&](const Pose3& start, double error) {
-    const ScanToMapResult other = registerToMap(scan.points, *map_, start, error);
-    if (other.converged && (!best.converged || other.matched_share > best.matched_share))
-      best = other;
-  };
-  const auto good = [&] { return best.converged && best.matched_share >= kGoodShare; };
-  if (!good() && error_m > kNearM) look(predicted, std::min(kMaxErrorM, error_m));
-  if (!good() && anywhere && error_m > kNearM)
-    for (const Pose3& start : starts(scan, predicted)) look(start, kNearM);
-  return best;
-}
-
-/** Poses that no prediction is needed for: in space by descriptors, against the last scan that was
- * tracked; in the plane, turned from the prediction. */
-std::vector<Pose3> LidarOdometry::starts(const FilteredScan& scan, const Pose3& predicted) const {
-  std::vector<Pose3> result;
-  if (planar_) {
-    for (const double degrees : {15, -15, 30, -30, 45, -45, 60, -60})
-      result.push_back(predicted * planarPose(0, 0, degrees * kDegree));
-    return result;
-  }
-  const PreparedScanPtr source = prepareScan(scan.points, kNormalNeighbors, false);
-  const PreparedScanPtr target = prepareScan(reference_.points, kNormalNeighbors, false);
-  for (const GlobalPose& pose : alignByConsistency(source->features(), target->features(),
-                                                   std::nullopt, ConsistencyOptions()))
-    result.push_back(reference_.odom_T_base * pose.target_T_source);
-  return result;
-}
-
 /** The scan decides where the surfaces hold it, the prediction where they do not.
  * \param anywhere also looks where no prediction points to, if need be.
  * \param nearby a pose that lies closer than what the prediction can promise. */
@@ -377,8 +362,9 @@ LidarOdometry::Located LidarOdometry::locate(const FilteredScan& scan, const Mot
   const Vector6d sigmas = P.diagonal().cwiseSqrt();
   const double error =
       kSigmas * (sigmas.head<3>().maxCoeff() + sigmas.tail<3>().maxCoeff() * radiusOf(scan.points));
-  const ScanToMapResult found = nearby ? registerToMap(scan.points, *map_, *nearby, 0)
-                                       : search(scan, predicted, error, anywhere);
+  const ScanToMapResult found =
+      nearby ? registerToMap(scan.points, *map_, *nearby, 0)
+             : searchInMap(scan, predicted, error, anywhere ? reference_.get() : nullptr, *map_);
   located.registered = found.map_T_scan;
   located.matched_share = found.matched_share;
   located.tracked = found.converged && found.matched_share >= options.min_matched_share;
@@ -389,10 +375,9 @@ LidarOdometry::Located LidarOdometry::locate(const FilteredScan& scan, const Mot
           .information;
   if (planar_) located.information = inPlane(located.information);
   const Matrix6d& information = located.information;
-  located.innovation = logSE3(predicted.inverse() * found.map_T_scan);
   // S⁻¹ = (P + I⁻¹)⁻¹ = I (1 + P I)⁻¹, which needs no inverse of what may be singular.
-  located.expected = information * (Matrix6d::Identity() + P * information).inverse();
-  located.surprise = surpriseOf(located.innovation, located.expected);
+  located.innovation = {logSE3(predicted.inverse() * found.map_T_scan),
+                        information * (Matrix6d::Identity() + P * information).inverse()};
   // What all patches have in common is mostly common to the scans in the map, too. It counts little
   // here, or the map would follow a source that errs evenly.
   RegistrationInformationOptions apart = options.information;
@@ -402,28 +387,8 @@ LidarOdometry::Located LidarOdometry::locate(const FilteredScan& scan, const Mot
   if (planar_) sharp = inPlane(sharp);
   located.odom_T_base = normalized(
       predicted * expSE3(Vector6d(P * sharp * (Matrix6d::Identity() + P * sharp).inverse() *
-                                  located.innovation)));
+                                  located.innovation.difference)));
   return located;
-}
-
-/** A source that errs by more than it says gets less weight; one that errs the same way again and
- * again would drag the map along, so that what it says of several scans together counts, too. */
-void LidarOdometry::judgePrior(const Located& located) {
-  if (!located.tracked) return;
-  surprises_.push_back(located.surprise);
-  innovations_ += located.innovation;
-  expected_ += located.expected;
-  if (surprises_.size() < kSurprises) return;
-  const auto count = static_cast<double>(surprises_.size());
-  const double together = surpriseOf(innovations_ / std::sqrt(count), expected_ / count);
-  const double typical = std::max(medianOf(surprises_), together);
-  surprises_.clear();
-  innovations_.setZero();
-  expected_.setZero();
-  if (typical > kExpectedSurprise)
-    prior_scale_ = std::min(kMaxScale, prior_scale_ * typical);
-  else if (prior_scale_ > 1)
-    prior_scale_ = std::max(1.0, prior_scale_ * std::max(0.5, typical / kExpectedSurprise));
 }
 
 void LidarOdometry::accept(double stamp, const FilteredScan& scan, const Located& located) {
@@ -450,7 +415,7 @@ void LidarOdometry::accept(double stamp, const FilteredScan& scan, const Located
 }
 
 void LidarOdometry::extendMap(const FilteredScan& scan, const Pose3& odom_T_base) {
-  reference_ = {odom_T_base, scan.points};
+  reference_ = std::make_unique<LocatedScan>(LocatedScan{odom_T_base, scan.points});
   const Pose3 since =
       inserted_at_ ? Pose3(inserted_at_->inverse() * odom_T_base) : Pose3::Identity();
   if (inserted_at_ && since.translation().norm() < options.insert_distance_m &&

@@ -28,6 +28,7 @@ OdometryChain::OdometryChain(std::vector<std::shared_ptr<OdometrySource>> source
 
 void OdometryChain::observe(const InputObservation& observation) {
   newest_ = std::max(newest_, observation.stamp);
+  gyros_.observe(observation);
   if (tracker_) tracker_->observe(observation);
   for (const auto& source : others_) source->observe(observation);
 }
@@ -48,6 +49,7 @@ bool OdometryChain::ready(double stamp) {
   const bool covered = other && other->covers(stamp);
   const bool waited = newest_ > stamp + (keyed_ ? kKeyedPatienceS : kPatienceS);
   if (!tracks_ && (covered || waited)) tracks_ = !keyed_ || !covered;
+  if (!gyros_.covers(stamp) && !waited) return false;
   return covered || (tracks() && (waited || others_.empty()));
 }
 
@@ -66,6 +68,19 @@ std::optional<Pose3> OdometryChain::recordedPose(double stamp) const {
 }
 
 Pose3 OdometryChain::motion(double from, double to) const {
+  Pose3 motion = motionWithoutGyros(from, to);
+  if (const auto turn = this->turn(from, to)) motion.linear() = turn->rotation;
+  return motion;
+}
+
+/** Of a robot in the plane the turn there. */
+std::optional<RotationPrior> OdometryChain::turn(double from, double to) const {
+  auto turn = gyros_.between(from, to);
+  if (turn && planar_) turn->rotation = planarPose(0, 0, yawOf(Pose3(turn->rotation))).linear();
+  return turn;
+}
+
+Pose3 OdometryChain::motionWithoutGyros(double from, double to) const {
   if (recordedKnows(from, to)) return recorded()->poseAt(from).inverse() * recorded()->poseAt(to);
   if (!tracks()) return main().poseAt(from).inverse() * main().poseAt(to);
   return tracker_->predictedMotion(from).inverse() * tracker_->predictedMotion(to);
@@ -81,9 +96,13 @@ std::optional<MotionPrior> OdometryChain::prior(double from, double to) const {
 }
 
 Pose3 OdometryChain::track(double stamp, FilteredScan& scan) {
-  const auto prior = last_ ? this->prior(*last_, stamp) : std::nullopt;
+  ScanMotion known;
+  planar_ = scan.planar;
+  if (last_) known = {prior(*last_, stamp), turn(*last_, stamp)};
+  const Pose3 odom_T_base = tracker_->track(stamp, known, scan);
+  if (const auto seen = tracker_->seenTurn(); last_ && seen) gyros_.compare(*last_, stamp, *seen);
   last_ = stamp;
-  return tracker_->track(stamp, prior, scan);
+  return odom_T_base;
 }
 
 bool OdometryChain::planar() const {
@@ -92,7 +111,7 @@ bool OdometryChain::planar() const {
 }
 
 std::vector<std::string> OdometryChain::warnings() const {
-  std::vector<std::string> result;
+  std::vector<std::string> result = gyros_.warnings();
   for (const auto& source : others_)
     for (std::string& warning : source->warnings()) result.push_back(std::move(warning));
   if (tracker_)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "GyroRotation.h"
 #include "lamp/frontend/MotionModel.h"
 #include "lamp/frontend/OdometrySource.h"
 
@@ -32,7 +33,7 @@ class OdometryChain {
   /** The next scan goes to scan odometry, if tracks(). \return `odom_T_base`. */
   Pose3 track(double stamp, FilteredScan& scan);
   /** `from_T_to`, for moments within and between the last scans: as recorded, where that is known,
-   * else as the robot has moved last. */
+   * else as the robot has moved last; turned as gyros say, if there are any. */
   Pose3 motion(double from, double to) const;
   Pose3 poseAt(double stamp) const { return main().poseAt(stamp); }
   bool knows(double stamp) const { return main().knows(stamp); }
@@ -54,12 +55,16 @@ class OdometryChain {
  private:
   OdometrySource* recorded() const;
   bool recordedKnows(double from, double to) const;
+  Pose3 motionWithoutGyros(double from, double to) const;
+  std::optional<RotationPrior> turn(double from, double to) const;
   std::optional<MotionPrior> prior(double from, double to) const;
 
   std::shared_ptr<ScanOdometry> tracker_;
   std::vector<std::shared_ptr<OdometrySource>> others_;
   const bool keyed_;
   const MotionModelOptions motion_;
+  GyroRotation gyros_;
+  bool planar_ = false;  ///< the last scan tracked
   std::optional<bool> tracks_;
   double newest_ = 0;           ///< stamp, of all observations
   std::optional<double> last_;  ///< stamp of the last scan tracked

@@ -5,30 +5,11 @@
 #include <exception>
 #include <vector>
 
+#include "Undistortion.h"
+
 namespace lamp {
 
 namespace {
-
-/** Between so many moments of a sweep the robot moves evenly. */
-constexpr int kMoments = 16;
-
-/** Moves each point from the base frame at its time to that at the scan's stamp. */
-void undistort(Scan& scan, const std::function<Pose3(double time)>& stamp_T_at) {
-  const auto [first, last] = std::minmax_element(scan.time.begin(), scan.time.end());
-  const float begin = *first, span = *last - *first;
-  if (!(span > 0)) return;
-  std::vector<Eigen::Isometry3f> poses;
-  for (int k = 0; k <= kMoments; ++k)
-    poses.push_back(stamp_T_at(begin + span * static_cast<double>(k) / kMoments).cast<float>());
-  for (size_t i = 0; i < scan.size(); ++i) {
-    const float place = (scan.time[i] - begin) / span * kMoments;
-    const int k = std::clamp(static_cast<int>(place), 0, kMoments - 1);
-    const float ratio = place - static_cast<float>(k);
-    const Eigen::Vector3f before = poses[static_cast<size_t>(k)] * scan.points[i];
-    const Eigen::Vector3f after = poses[static_cast<size_t>(k) + 1] * scan.points[i];
-    scan.points[i] = before + ratio * (after - before);
-  }
-}
 
 /** The place of a scan's one lidar among the target's: pieces of one sweep share a lidar. */
 uint8_t sensorFor(const SensorOrigin& origin, Scan& target) {
@@ -72,7 +53,9 @@ Scan ScanMerger::merge(const ScanParts& parts, const Motion& motion) {
       auto scan = scanFromObservation(*part.observation, part.label, options_);
       if (!scan) continue;
       if (!scan->time.empty()) {
-        undistort(*scan, [&](double time) { return motion(part.stamp, part.stamp + time); });
+        undistort(
+            scan->time, [&](double time) { return motion(part.stamp, part.stamp + time); },
+            scan->points);
         sweep_s_ = std::max(sweep_s_, part.stamp - parts.stamp +
                                           *std::max_element(scan->time.begin(), scan->time.end()));
       }

@@ -35,7 +35,7 @@ void drive(OdometrySource& source, double end = kEnd) {
     source.observe(cloud(kStart + t, somePoints()));
     if (auto* const tracker = dynamic_cast<ScanOdometry*>(&source)) {
       FilteredScan scan = hallSeenFrom(truth(t), static_cast<unsigned>(10 * t));
-      tracker->track(kStart + t, std::nullopt, scan);
+      tracker->track(kStart + t, {}, scan);
     }
   }
 }

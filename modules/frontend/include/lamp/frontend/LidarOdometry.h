@@ -8,12 +8,15 @@
 
 #include "lamp/core/KeyNodePacket.h"
 #include "lamp/frontend/OdometrySource.h"
+#include "lamp/frontend/PriorWeight.h"
 #include "lamp/frontend/RelativeCovariance.h"
 #include "lamp/scans/LocalMap.h"
 #include "lamp/scans/RegistrationInformation.h"
 #include "lamp/scans/ScanToMap.h"
 
 namespace lamp {
+
+struct LocatedScan;
 
 struct LidarOdometryOptions {
   double min_matched_share = 0.3;
@@ -39,6 +42,9 @@ class LidarOdometry : public ScanOdometry {
  public:
   LidarOdometryOptions options;
 
+  LidarOdometry();
+  ~LidarOdometry() override;
+
   void visit(OptionVisitor& v) override { options.visit(v); }
   void observe(const InputObservation&) override {}
   bool covers(double stamp) const override;
@@ -51,7 +57,8 @@ class LidarOdometry : public ScanOdometry {
   std::vector<std::string> warnings() const override;
 
   Pose3 predictedMotion(double stamp) const override;
-  Pose3 track(double stamp, const std::optional<MotionPrior>& prior, FilteredScan& scan) override;
+  Pose3 track(double stamp, const ScanMotion& known, FilteredScan& scan) override;
+  std::optional<RotationPrior> seenTurn() const override { return seen_turn_; }
 
  private:
   /** A pose that a scan may have, and why. */
@@ -61,39 +68,30 @@ class LidarOdometry : public ScanOdometry {
     Matrix6d information = Matrix6d::Zero();  ///< from the scan alone, in the tangent space there
     MotionPrior prediction;
     double matched_share = 0;
-    Vector6d innovation = Vector6d::Zero();  ///< from the prediction to the scan's own pose
-    Matrix6d expected = Matrix6d::Zero();    ///< inverse of its covariance
-    double surprise = 0;  ///< the innovation's, squared, over its degrees of freedom
+    Innovation innovation;
     bool tracked = false;
     /** Corrected for the motion found; empty if the scan's own are right. */
     std::vector<Eigen::Vector3f> points;
   };
 
   void beginMap(const FilteredScan& scan, const Pose3& odom_T_base);
-  MotionPrior constantVelocity(double seconds) const;
-  MotionPrior weighed(const MotionPrior& prior) const;
+  MotionPrior constantVelocity(double seconds, const std::optional<RotationPrior>& turn) const;
   Located locate(const FilteredScan& scan, const MotionPrior& motion, bool anywhere,
                  const std::optional<Pose3>& nearby = {});
-  Located locateAlone(double stamp, const FilteredScan& scan, bool anywhere);
-  ScanToMapResult search(const FilteredScan& scan, const Pose3& predicted, double error_m,
-                         bool anywhere);
-  std::vector<Pose3> starts(const FilteredScan& scan, const Pose3& predicted) const;
-  Located settle(double stamp, const FilteredScan& scan, const Located& by_prior);
+  Located locateBy(double stamp, const ScanMotion& known, const FilteredScan& scan);
+  Located locateAlone(double stamp, const std::optional<RotationPrior>& turn,
+                      const FilteredScan& scan, bool anywhere);
+  Located settle(double stamp, const ScanMotion& known, const FilteredScan& scan,
+                 const Located& by_prior);
+  std::optional<RotationPrior> turnSeenBy(const Located& located) const;
   void addDoubt(const Vector6d& disagreement);
-  void judgePrior(const Located& located);
   void accept(double stamp, const FilteredScan& scan, const Located& located);
   void extendMap(const FilteredScan& scan, const Pose3& odom_T_base);
 
-  /** The last scan that was tracked. */
-  struct Reference {
-    Pose3 odom_T_base = Pose3::Identity();
-    std::vector<Eigen::Vector3f> points;
-  };
-
   bool planar_ = true;
-  Reference reference_;
-  std::unique_ptr<LocalMap> map_;  ///< none before a scan shows enough
-  std::deque<StampedPose> poses_;  ///< of the last scans
+  std::unique_ptr<LocatedScan> reference_;  ///< the last scan that was tracked
+  std::unique_ptr<LocalMap> map_;           ///< none before a scan shows enough
+  std::deque<StampedPose> poses_;           ///< of the last scans
   Pose3 last_motion_ = Pose3::Identity();
   double last_motion_s_ = 0;
   double travelled_m_ = 0;
@@ -104,10 +102,8 @@ class LidarOdometry : public ScanOdometry {
   Matrix6d doubt_ = Matrix6d::Zero();  ///< since then, where two sources disagreed
   double usual_share_ = 0;             ///< of a scan that matches the map, mean of the last ones
 
-  double prior_scale_ = 1;  ///< of the other source's covariance
-  std::deque<double> surprises_;
-  Vector6d innovations_ = Vector6d::Zero();  ///< sum over as many scans
-  Matrix6d expected_ = Matrix6d::Zero();     ///< the same
+  PriorWeight recorded_weight_;
+  std::optional<RotationPrior> seen_turn_;
   size_t lost_in_a_row_ = 0;
   int contradictions_in_a_row_ = 0;
   double lost_s_ = 0;  ///< for how long already

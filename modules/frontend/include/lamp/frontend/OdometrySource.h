@@ -46,6 +46,18 @@ struct MotionPrior {
   Matrix6d covariance = Matrix6d::Identity();  ///< in the tangent space at the motion
 };
 
+/** What gyros say of the rotation between two moments. */
+struct RotationPrior {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< `from_R_to`, base frame
+  double sigma_rad = 0;                                    ///< about each axis
+};
+
+/** What is known of the motion between two scans without them. */
+struct ScanMotion {
+  std::optional<MotionPrior> recorded;  ///< from another source of odometry
+  std::optional<RotationPrior> turn;    ///< from gyros, measured during the scan as well
+};
+
 /** A scan as odometry needs it. */
 struct FilteredScan {
   std::vector<Eigen::Vector3f> points;  ///< base frame at the scan's stamp, metres
@@ -65,12 +77,14 @@ class ScanOdometry : public OdometrySource {
  public:
   /** The motion from the last scan to `stamp` (seconds, UTC) if the robot goes on as it did. */
   virtual Pose3 predictedMotion(double stamp) const = 0;
-  /** The next scan. \param prior what another source says of the motion since the last one, if one
-   * knows. \param[in,out] scan where no other source knew how the robot moved while the lidar
-   * turned, its points are put where the motion that is found wants them. \return `odom_T_base` at
-   * the scan's stamp, as poseAt() will. */
-  virtual Pose3 track(double stamp, const std::optional<MotionPrior>& prior,
-                      FilteredScan& scan) = 0;
+  /** The next scan. \param known of the motion since the last one.
+   * \param[in,out] scan where no other source knew how the robot moved while the lidar turned, its
+   * points are put where the motion that is found wants them. \return `odom_T_base` at the scan's
+   * stamp, as poseAt() will. */
+  virtual Pose3 track(double stamp, const ScanMotion& known, FilteredScan& scan) = 0;
+  /** How the robot has turned between the last two scans, by the last scan alone; none if it does
+   * not tell. */
+  virtual std::optional<RotationPrior> seenTurn() const = 0;
 };
 
 /** Registers LidarOdometry and RecordedOdometry. */
