@@ -38,17 +38,6 @@ class Row {
   const std::string& path_;
 };
 
-LedgerNodes readKeyNodes(const std::string& path) {
-  const CsvTable table = CsvTable::fromFile(path);
-  LedgerNodes nodes;
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    const Row row(table, i, path);
-    nodes[row.text("robot") + ":" + row.text("index")] = {
-        row.text("robot"), static_cast<uint32_t>(row.number("id")), row.number("stamp")};
-  }
-  return nodes;
-}
-
 const LedgerNode& nodeOf(const Row& row, const char* column, const LedgerNodes& nodes) {
   const auto found = nodes.find(row.text(column));
   if (found == nodes.end()) row.fail("key node '" + row.text(column) + "' is not in graph_ids.csv");
@@ -83,12 +72,29 @@ std::optional<Matrix6d> informationOf(const LedgerLoop& loop, const G2oEdges& ed
   return std::nullopt;
 }
 
+LedgerNodes byName(const std::vector<LedgerNode>& nodes) {
+  LedgerNodes result;
+  for (const LedgerNode& node : nodes) result[node.robot + ":" + std::to_string(node.index)] = node;
+  return result;
+}
+
 }  // namespace
+
+std::vector<LedgerNode> readKeyNodes(const std::string& path) {
+  const CsvTable table = CsvTable::fromFile(path);
+  std::vector<LedgerNode> nodes;
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    const Row row(table, i, path);
+    nodes.push_back({row.text("robot"), static_cast<uint32_t>(row.number("index")),
+                     static_cast<uint32_t>(row.number("id")), row.number("stamp")});
+  }
+  return nodes;
+}
 
 std::vector<LedgerLoop> readLedger(const RunFolder& run) {
   const std::string path = run.loops();
   const CsvTable table = CsvTable::fromFile(path);
-  const LedgerNodes nodes = readKeyNodes(run.graphIds());
+  const LedgerNodes nodes = byName(readKeyNodes(run.graphIds()));
   const G2oEdges edges = readG2oEdges(run.graphG2o());
   std::map<std::string, std::pair<double, LedgerLoop>> last_attempts;  // by loop_id
   std::vector<std::string> order;

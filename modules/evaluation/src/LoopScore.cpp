@@ -107,6 +107,7 @@ std::optional<double> LoopScore::falsePositives(const StageScore& stage) const {
 LoopScore scoreLoops(const std::vector<const JudgedLoop*>& loops) {
   LoopScore score;
   std::vector<double> translations, rotations;
+  std::vector<ClaimedPose> claimed;
   for (const JudgedLoop* judged : loops) {
     count(*judged, score.generated);
     if (judged->loop.verified) count(*judged, score.verified);
@@ -115,9 +116,12 @@ LoopScore scoreLoops(const std::vector<const JudgedLoop*>& loops) {
     if (!judged->error) continue;
     translations.push_back(judged->error->translation().norm());
     rotations.push_back(rotationAngle(*judged->error) / kDegree);
+    if (judged->closure == ClosureKind::kRight && judged->loop.information)
+      claimed.push_back({*judged->error, *judged->loop.information});
   }
   score.translation_m = Statistics::of(translations);
   score.rotation_deg = Statistics::of(rotations);
+  score.covariance = scoreCovariances(claimed);
   return score;
 }
 

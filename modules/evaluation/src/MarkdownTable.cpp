@@ -86,6 +86,8 @@ void appendLoops(const Json& runs, std::string& text) {
     for (const char* stage : {"generated", "verified", "kept"})
       appendRows(runs, std::string(title) + " " + stage, path + "/" + stage, kStageRows, text);
     appendRows(runs, std::string(title) + " kept, error", path, kLoopErrorRows, text);
+    appendRows(runs, std::string(title) + " kept, covariance", path + "/covariance",
+               kCovarianceRows, text);
     if (!apart) return;
   }
 }
@@ -108,6 +110,7 @@ std::string tableRows(const Json& runs) {
   if (robots.size() > 1)
     for (const std::string& robot : robots)
       appendRows(runs, robot, "/trajectories/robots/" + robot, kTrajectoryRows, text);
+  appendRows(runs, "odometry edges", "/odometry_edges", kCovarianceRows, text);
   appendLoops(runs, text);
   for (const std::string& map : keysOf(runs, "/maps"))
     appendRows(runs, map, "/maps/" + map, kMapRows, text);

@@ -93,12 +93,22 @@ Json errorJson(const Statistics& error, const std::string& unit) {
       {"mean_" + unit, error.mean}, {"median_" + unit, error.median}, {"max_" + unit, error.max}};
 }
 
+Json covarianceJson(const CovarianceScore& score) {
+  if (score.count == 0) return nullptr;
+  Json json = {{"edges", score.count}, {"beyond_95_share", score.beyond_95}};
+  const char* const axes[] = {"x", "y", "z", "roll", "pitch", "yaw"};
+  for (size_t i = 0; i < 6; ++i)
+    json["normalized_variance"][axes[i]] = optionalNumber(score.normalized_variance[i]);
+  return json;
+}
+
 Json loopScoreJson(const LoopScore& score) {
   return {{"generated", stageJson(score, score.generated)},
           {"verified", stageJson(score, score.verified)},
           {"kept", stageJson(score, score.kept)},
           {"kept_translation_error", errorJson(score.translation_m, "m")},
-          {"kept_rotation_error", errorJson(score.rotation_deg, "deg")}};
+          {"kept_rotation_error", errorJson(score.rotation_deg, "deg")},
+          {"covariance", covarianceJson(score.covariance)}};
 }
 
 Json mapsJson(const std::vector<MapEvaluation>& maps) {
@@ -137,6 +147,7 @@ Json runJson(const RunEvaluation& run) {
   json["interrupted"] = run.run.interrupted;
   json["notes"] = run.notes;
   if (run.trajectories) json["trajectories"] = trajectoriesJson(*run.trajectories);
+  if (run.odometry_edges) json["odometry_edges"] = covarianceJson(*run.odometry_edges);
   if (run.loops)
     json["loops"] = {{"all", loopScoreJson(run.loops->all)},
                      {"within_robots", loopScoreJson(run.loops->within_robots)},

@@ -36,6 +36,14 @@ const std::vector<ReportRow> kLoopErrorRows = {
      "{kept_rotation_error/mean_deg:2} / {kept_rotation_error/median_deg:2} / "
      "{kept_rotation_error/max_deg:2}"},
 };
+const std::vector<ReportRow> kCovarianceRows = {
+    {"beyond their 95 % [%]", "{beyond_95_share%1}"},
+    {"normalised variance x / y / z",
+     "{normalized_variance/x:2} / {normalized_variance/y:2} / {normalized_variance/z:2}"},
+    {"normalised variance roll / pitch / yaw",
+     "{normalized_variance/roll:2} / {normalized_variance/pitch:2} / "
+     "{normalized_variance/yaw:2}"},
+};
 const std::vector<ReportRow> kMapRows = {
     {"accuracy mean [m]", "{accuracy_mean_m:3}"},
     {"accuracy 95 % [m]", "{accuracy_p95_m:3}"},

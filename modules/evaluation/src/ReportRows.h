@@ -11,7 +11,7 @@ struct ReportRow {
   const char* pattern;
 };
 
-extern const std::vector<ReportRow> kTrajectoryRows, kStageRows, kLoopErrorRows, kMapRows,
-    kOctoMapRows, kRelationRows;
+extern const std::vector<ReportRow> kTrajectoryRows, kStageRows, kLoopErrorRows, kCovarianceRows,
+    kMapRows, kOctoMapRows, kRelationRows;
 
 }  // namespace lamp::evaluation

@@ -107,6 +107,9 @@ RunEvaluation evaluateRun(const std::string& root, const EvaluationInput& input,
     evaluation.trajectories = evaluateTrajectories(evaluation.run, *input.truth, input.alignment);
     append(evaluation.trajectories->warnings, evaluation.notes);
     progress(0.1, "loop closures");
+    if (fs::exists(evaluation.run.folder.graphG2o()) &&
+        fs::exists(evaluation.run.folder.graphIds()))
+      evaluation.odometry_edges = evaluateOdometryEdges(evaluation.run, *input.truth);
     addLoops(*input.truth, evaluation);
     progress(0.5, "maps");
     if (input.world)

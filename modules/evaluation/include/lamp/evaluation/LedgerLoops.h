@@ -14,6 +14,7 @@ namespace lamp::evaluation {
 /** A key node as the files of a run name it. */
 struct LedgerNode {
   std::string robot;
+  uint32_t index = 0;     ///< among the robot's
   uint32_t graph_id = 0;  ///< in graph.g2o
   double stamp = 0;       ///< seconds, UTC
 };
@@ -30,6 +31,10 @@ struct LedgerLoop {
 
   bool betweenRobots() const { return from.robot != to.robot; }
 };
+
+/** Reads graph_ids.csv, in its order: robots one after another, each in time order.
+ * \throws std::runtime_error with the file if it is missing or malformed. */
+std::vector<LedgerNode> readKeyNodes(const std::string& path);
 
 /** Reads loops.csv, graph_ids.csv and graph.g2o; one loop a pair of key nodes.
  * \throws std::runtime_error with the file if one is missing or malformed. */

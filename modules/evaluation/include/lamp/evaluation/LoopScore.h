@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "lamp/evaluation/CovarianceScore.h"
 #include "lamp/evaluation/LedgerLoops.h"
 #include "lamp/evaluation/Statistics.h"
 
@@ -46,6 +47,7 @@ struct StageScore {
 struct LoopScore {
   StageScore generated, verified, kept;
   Statistics translation_m, rotation_deg;  ///< errors of the kept loops, in all directions
+  CovarianceScore covariance;              ///< of the kept loops that are right
 
   /** right / (right + wrong); none if there are none. */
   static std::optional<double> precision(const StageScore& stage);

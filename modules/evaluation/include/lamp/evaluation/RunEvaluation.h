@@ -9,6 +9,7 @@
 #include "lamp/evaluation/LoopEvaluation.h"
 #include "lamp/evaluation/MapEvaluation.h"
 #include "lamp/evaluation/OctoMapEvaluation.h"
+#include "lamp/evaluation/OdometryEdges.h"
 #include "lamp/evaluation/Relations.h"
 #include "lamp/evaluation/TrajectoryEvaluation.h"
 
@@ -41,6 +42,7 @@ struct RunEvaluation {
   std::string name;  ///< unique among the runs of a report
   RunFiles run;
   std::optional<TrajectoryEvaluation> trajectories;
+  std::optional<CovarianceScore> odometry_edges;
   std::optional<LoopEvaluation> loops;
   std::vector<MapEvaluation> maps;
   std::optional<OctoMapEvaluation> octomap;  ///< of the largest component
