@@ -6,11 +6,12 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/obs/registerAllClasses.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <stdexcept>
 
+#include "CheckedObject.h"
 #include "ObjectHeader.h"
+#include "ObjectLayout.h"
 #include "RewindableStream.h"
 
 namespace lamp {
@@ -82,6 +83,11 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::next() {
 }
 
 mrpt::serialization::CSerializable::Ptr RawlogReader::readObject(uint64_t start) {
+  if (passed_over_ && *stream_->data() == kObjectEndFlag) {
+    passed_over_ = false;
+    stream_->skip(1);
+    return nullptr;
+  }
   const size_t ready = stream_->prepare(kMaxHeaderBytes);
   const auto class_name = parseObjectHeader(stream_->data(), ready);
   if (!class_name) {
@@ -94,15 +100,24 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::readObject(uint64_t start)
     return nullptr;
   }
   try {
-    auto object = mrpt::serialization::archiveFrom(*stream_).ReadObject();
+    auto object = readCheckedObject(*stream_);
     ++report_.objects;
     return object;
+  } catch (const UnreadClass&) {
+    passOver(start);
+    return nullptr;
   } catch (const std::exception&) {
     // MRPT's messages are call stacks, and bad_alloc comes of corrupt sizes: both mean damage.
     ++report_.damaged_objects;
     recover(start, {"damaged object of class " + *class_name, stream_->ranOut()});
     return nullptr;
   }
+}
+
+void RawlogReader::passOver(uint64_t start) {
+  passed_over_ = true;
+  stream_->moveTo(start + 1);
+  if (!findNextHeader()) finish();
 }
 
 void RawlogReader::recover(uint64_t start, const Fault& fault) {

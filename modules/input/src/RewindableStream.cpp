@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "AnnouncedSize.h"
-
 namespace lamp {
 namespace {
 
@@ -79,28 +77,21 @@ double RewindableStream::progress() const {
   return std::clamp(read / static_cast<double>(file_size_), 0.0, 1.0);
 }
 
-void RewindableStream::require(size_t count) {
+const uint8_t* RewindableStream::require(size_t count) {
   if (count > kMaxKeptBytes - std::min(cursor_ - mark_, kMaxKeptBytes)) {
     throw std::runtime_error("object larger than any a rawlog can hold");
   }
-  if (prepare(count) >= count) return;
-  ran_out_ = true;
-  throw std::runtime_error("end of the data");
-}
-
-size_t RewindableStream::sizeOfWhatFollows() {
-  const size_t ready = prepare(2 * sizeof(uint32_t));
-  const auto* bytes = reinterpret_cast<const char*>(buffer_.data());
-  const uint64_t size = announcedSize({bytes + mark_, cursor_ - mark_},
-                                      {bytes + cursor_, std::min<size_t>(ready, 8)});
-  return static_cast<size_t>(std::min<uint64_t>(size, kMaxKeptBytes));
+  if (prepare(count) < count) {
+    ran_out_ = true;
+    throw std::runtime_error("end of the data");
+  }
+  return data();
 }
 
 size_t RewindableStream::Read(void* buffer, size_t count) {
-  require(count);
-  if (count == sizeof(uint32_t)) require(count + sizeOfWhatFollows());
-  if (count > 0) std::memcpy(buffer, data(), count);
-  cursor_ += count;
+  const uint8_t* const bytes = require(count);
+  if (count > 0) std::memcpy(buffer, bytes, count);
+  skip(count);
   return count;
 }
 

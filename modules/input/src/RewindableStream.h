@@ -27,6 +27,14 @@ class RewindableStream : public mrpt::io::CStream {
   const uint8_t* data() const { return buffer_.data() + cursor_; }
 
   uint64_t position() const { return buffer_start_ + cursor_; }
+  /** Makes `count` bytes ready, or as many as `kMaxKeptBytes` allow.
+   *  \return the bytes. \throws std::runtime_error if there are not so many. */
+  const uint8_t* require(size_t count);
+  /** \param count no more bytes than are ready. */
+  void skip(size_t count) { cursor_ += count; }
+  /** The bytes from an offset on that moveTo() accepts. */
+  const uint8_t* dataAt(uint64_t offset) const { return buffer_.data() + (offset - buffer_start_); }
+
   /** Allows to forget what lies before the position. */
   void mark();
   /** \param offset not before the last mark, not behind what was prepared. */
@@ -52,10 +60,6 @@ class RewindableStream : public mrpt::io::CStream {
     void operator()(gzFile file) const { gzclose_r(file); }
   };
   void fetch();
-  /** \throws std::runtime_error unless so many bytes are there. */
-  void require(size_t count);
-  /** If the next number is a size: of how many bytes at least, up to kMaxKeptBytes. */
-  size_t sizeOfWhatFollows();
 
   std::unique_ptr<gzFile_s, Close> file_;
   uint64_t file_size_ = 0;

@@ -31,8 +31,9 @@ struct RawlogReport {
  * registered class that may stand in a rawlog). Observations within a damaged sensory frame are
  * saved one by one. MRPT's own reader stops silently in these cases.
  *
- * Corrupt sizes are bounded, but MRPT's deserialisers trust the rest of what they read: an altered
- * byte at the wrong place of an object that is not compressed can still crash the program.
+ * What MRPT would read is checked first, since its deserialisers trust sizes and class names.
+ * MRPT's classes that we have no use for are passed over, but what else a sensory frame holds is
+ * read; pictures are not decoded. Classes of plugins check for themselves what they read.
  */
 class RawlogReader {
  public:
@@ -52,12 +53,15 @@ class RawlogReader {
   struct Fault;
   mrpt::serialization::CSerializable::Ptr readObject(uint64_t start);
   bool findNextHeader();
+  /** Goes on behind the header of an object that is not read itself. */
+  void passOver(uint64_t start);
   void recover(uint64_t start, const Fault& fault);
   void finish();
   void note(const std::string& message);
 
   std::unique_ptr<RewindableStream> stream_;
   RawlogReport report_;
+  bool passed_over_ = false;  ///< an object, of which an end flag may be left
   bool finished_ = false;
 };
 
