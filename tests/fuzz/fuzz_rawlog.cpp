@@ -2,14 +2,20 @@
 #include <mrpt/core/backtrace.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -18,6 +24,7 @@
 #include "lamp/input/OdometryFromObservation.h"
 #include "lamp/input/RawlogSource.h"
 #include "lamp/input/ScanFromObservation.h"
+#include "lamp/observations/CObservationTimedPoints.h"
 
 using namespace lamp;
 using namespace mrpt::obs;
@@ -29,8 +36,8 @@ void mrpt::callStackBackTrace(TCallStackBackTrace&, const unsigned int,
 
 namespace {
 
-/** A recording of whole objects with any values, and between them what damage leaves. The bytes of
- * an object are not altered: MRPT trusts the sizes and classes in them (RawlogReader.h). */
+/** A recording of objects with any values, some with altered bytes, and between them what damage
+ * leaves. */
 class Recording {
  public:
   Recording(const uint8_t* data, size_t size) : fuzz_(data, size) {
@@ -42,7 +49,7 @@ class Recording {
 
  private:
   void append() {
-    switch (fuzz_.ConsumeIntegralInRange(0, 9)) {
+    switch (fuzz_.ConsumeIntegralInRange(0, 14)) {
       case 0:
         return append(laser());
       case 1:
@@ -60,7 +67,17 @@ class Recording {
       case 7:
         return append(ranges());
       case 8:
-        return appendFrame();
+        return append(frame());
+      case 9:
+        return append(depth());
+      case 10:
+        return append(packets());
+      case 11:
+        return append(timed());
+      case 12:
+        return append(picture());
+      case 13:
+        return append(actions());
       default:
         appendDamage();
     }
@@ -68,15 +85,20 @@ class Recording {
 
   void append(const mrpt::serialization::CSerializable& object) {
     try {
-      bytes_ += serialized(object);
+      bytes_ += maybeAltered(serialized(object));
       ++objects_;
     } catch (const std::exception&) {  // MRPT writes no observation that contradicts itself
     }
   }
-  void appendFrame() {
-    CSensoryFrame frame;
-    frame.insert(std::make_shared<CObservation2DRangeScan>(laser()));
-    append(frame);
+  std::string maybeAltered(std::string bytes) {
+    while (fuzz_.ConsumeBool()) {
+      damaged_ = true;
+      const size_t place = fuzz_.ConsumeIntegralInRange<size_t>(0, bytes.size() - 1);
+      const std::string altered =
+          fuzz_.ConsumeBytesAsString(1 + fuzz_.ConsumeIntegralInRange(0, 3));
+      bytes.replace(place, altered.size(), altered);
+    }
+    return bytes;
   }
   /** Bytes of no meaning, or an object whose end is lost. */
   void appendDamage() {
@@ -191,6 +213,69 @@ class Recording {
     return heard;
   }
 
+  CSensoryFrame frame() {
+    CSensoryFrame frame;
+    frame.insert(std::make_shared<CObservation2DRangeScan>(laser()));
+    frame.insert(std::make_shared<CObservationIMU>(inertial()));
+    return frame;
+  }
+  CObservation3DRangeScan depth() {
+    auto scan = made<CObservation3DRangeScan>();
+    scan.sensorPose = anyPose();
+    scan.maxRange = any<float>();
+    scan.hasPoints3D = fuzz_.ConsumeBool();
+    if (scan.hasPoints3D) scan.resizePoints3DVectors(static_cast<size_t>(count()));
+    scan.hasRangeImage = fuzz_.ConsumeBool();
+    if (scan.hasRangeImage) {
+      scan.rangeImage_setSize(count(), count());
+      scan.rangeImage.fill(fuzz_.ConsumeIntegral<uint16_t>());
+    }
+    scan.cameraParams.setIntrinsicParamsFromValues(any<double>(), any<double>(), any<double>(),
+                                                   any<double>());
+    return scan;
+  }
+  CObservationVelodyneScan packets() {
+    auto scan = made<CObservationVelodyneScan>();
+    scan.sensorPose = anyPose();
+    scan.scan_packets.resize(static_cast<size_t>(fuzz_.ConsumeIntegralInRange(0, 2)));
+    for (auto& packet : scan.scan_packets) fuzz_.ConsumeData(&packet, sizeof(packet));
+    if (fuzz_.ConsumeBool())
+      scan.calibration = VelodyneCalibration::LoadDefaultCalibration("VLP16");
+    auto& cloud = scan.point_cloud;
+    for (int i = count(); i > 0; --i) {
+      for (auto* axis : {&cloud.x, &cloud.y, &cloud.z}) axis->push_back(any<float>());
+      cloud.intensity.push_back(0);
+    }
+    return scan;
+  }
+  CObservationTimedPoints timed() {
+    auto scan = made<CObservationTimedPoints>();
+    scan.sensorPose = anyPose();
+    for (int i = count(); i > 0; --i) {
+      for (auto* column : {&scan.x, &scan.y, &scan.z, &scan.time}) column->push_back(any<float>());
+    }
+    return scan;
+  }
+  CObservationImage picture() {
+    auto taken = made<CObservationImage>();
+    taken.image.resize(count(), count(), mrpt::img::CH_GRAY);
+    return taken;
+  }
+  CActionCollection actions() {
+    CActionCollection actions;
+    CActionRobotMovement2D planar;
+    CActionRobotMovement2D::TMotionModelOptions model;
+    if (fuzz_.ConsumeBool()) model.modelSelection = CActionRobotMovement2D::mmThrun;
+    planar.computeFromOdometry({any<double>(), any<double>(), any<double>()}, model);
+    actions.insert(planar);
+    if (fuzz_.ConsumeBool()) {
+      CActionRobotMovement3D spatial;
+      spatial.poseChange.mean = anyPose();
+      actions.insert(spatial);
+    }
+    return actions;
+  }
+
   FuzzedDataProvider fuzz_;
   std::string bytes_;
   bool damaged_ = false;
@@ -231,8 +316,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     while (const auto input = source.next()) use(*input);
     const RawlogReport report = source.recordings().at(0).file;
     if (recording.damaged()) return;
-    fuzz::require(report.objects == recording.objects(), "all objects are read");
-    fuzz::require(report.bytes_skipped == 0 && !report.truncated, "nothing is lost");
+    const std::string lost = report.messages.empty() ? "" : ": " + report.messages.front();
+    fuzz::require(report.objects == recording.objects(), "all objects are read" + lost);
+    fuzz::require(report.bytes_skipped == 0 && !report.truncated, "nothing is lost" + lost);
   });
   return 0;
 }

@@ -1,6 +1,5 @@
 #include "lamp/observations/CObservationTimedPoints.h"
 
-#include <mrpt/core/initializer.h>
 #include <mrpt/img/color_maps.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -13,11 +12,14 @@ namespace lamp {
 
 IMPLEMENTS_SERIALIZABLE(CObservationTimedPoints, CObservation, lamp)
 
-MRPT_INITIALIZER(registerObservations) {
-  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(CObservationTimedPoints, lamp));
-}
-
 namespace {
+
+/** In the order of this file, so after the class's description, before which MRPT_INITIALIZER may
+ * run where the compiler does not fold that. */
+[[maybe_unused]] const bool registered = [] {
+  mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(CObservationTimedPoints, lamp));
+  return true;
+}();
 
 using mrpt::serialization::CArchive;
 
