@@ -257,7 +257,8 @@ void comment(LayoutCursor& in, int) {
   in.list(1);
   in.skip(kStamp);
 }
-void image(LayoutCursor& in, int) {
+void image(LayoutCursor& in, int version) {
+  if (version < 4) throw UnreadClass("CObservationImage as old releases wrote it");
   in.part({kPose3D});
   in.part({kCamera});
   in.picture();
@@ -286,7 +287,7 @@ const ClassLayouts& recordedLayouts() {
       {"mrpt::obs::CObservationBeaconRanges", {beaconRanges, 0, 3}},
       {"mrpt::obs::CObservationWirelessPower", {radioPower, 0, 3}},
       {"mrpt::obs::CObservationComment", {comment, 0, 0}},
-      {"mrpt::obs::CObservationImage", {image, 4, 4}}};
+      {"mrpt::obs::CObservationImage", {image, 0, 4}}};
   return layouts;
 }
 
