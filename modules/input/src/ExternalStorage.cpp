@@ -6,6 +6,10 @@
 
 #include <filesystem>
 
+#include "LayoutCursor.h"
+#include "ObjectHeader.h"
+#include "RewindableStream.h"
+
 namespace lamp {
 namespace {
 
@@ -26,12 +30,61 @@ class LazyLoadFolder {
   const std::string previous_;
 };
 
+bool isText(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension();
+  return extension == ".txt" || extension == ".TXT";
+}
+
+bool beginsWithObject(const std::string& file) {
+  RewindableStream stream(file);
+  const size_t ready = stream.prepare(kMaxHeaderBytes);
+  return parseObjectHeader(stream.data(), ready).has_value();
+}
+
+/** MRPT trusts the sizes in such a file, too. */
+template <class Follow>
+void check(const std::string& file, const Follow& follow) {
+  RewindableStream stream(file);
+  LayoutCursor cursor(stream);
+  follow(cursor);
+}
+
+void checkCloud(const std::string& file) {
+  using namespace classes;
+  if (!beginsWithObject(file)) return;
+  check(file, [](LayoutCursor& in) {
+    in.optionalPart({kSimplePoints, kPointsXYZI, kColouredPoints, kWeightedPoints});
+  });
+}
+void checkPoints(const std::string& file) {
+  if (!isText(file)) check(file, [](LayoutCursor& in) { in.coordinates(); });
+}
+void checkRangeImage(const std::string& file) {
+  if (isText(file)) return;
+  if (beginsWithObject(file))
+    return check(file, [](LayoutCursor& in) { in.part({classes::kMatrixF}); });
+  check(file, [](LayoutCursor& in) {
+    const uint32_t rows = in.number();
+    in.grid(rows, in.number(), sizeof(uint16_t));
+  });
+}
+void checkFiles(const CObservation3DRangeScan& scan) {
+  if (scan.hasPoints3D && scan.points3D_isExternallyStored())
+    checkPoints(scan.points3D_getExternalStorageFileAbsolutePath());
+  if (!scan.hasRangeImage || !scan.rangeImage_isExternallyStored()) return;
+  checkRangeImage(scan.rangeImage_getExternalStorageFileAbsolutePath(""));
+  for (const auto& layer : scan.rangeImageOtherLayers)
+    checkRangeImage(scan.rangeImage_getExternalStorageFileAbsolutePath(layer.first));
+}
+
 void loadInto(CObservationPointCloud& cloud) {
+  checkCloud(mrpt::io::lazy_load_absolute_path(cloud.getExternalStorageFile()));
   cloud.load();
   cloud.overrideExternalStorageFormatFlag(CObservationPointCloud::ExternalStorageFormat::None);
 }
 
 void loadInto(CObservation3DRangeScan& scan) {
+  checkFiles(scan);
   scan.load();
   scan.points3D_overrideExternalStoredFlag(false);
   scan.rangeImage_forceResetExternalStorage();

@@ -38,6 +38,15 @@ void LayoutCursor::grid(uint64_t rows, uint64_t columns, size_t bytes_each) {
   array(rows * columns, bytes_each);
 }
 
+void LayoutCursor::coordinates() {
+  const uint32_t points = number();
+  array(points, sizeof(float));
+  for (int axis = 1; axis < 3; ++axis) {
+    if (number() != points) damaged("coordinates of different numbers of points");
+    array(points, sizeof(float));
+  }
+}
+
 void LayoutCursor::text() {
   constexpr uint32_t kMaxText = 4096;
   const uint32_t size = number();

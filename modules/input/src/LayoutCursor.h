@@ -35,6 +35,8 @@ class LayoutCursor {
   void grid(uint64_t rows, uint64_t columns, size_t bytes_each);
   /** A std::vector of numbers: its size, and the elements. */
   void list(size_t bytes_each) { array(number(), bytes_each); }
+  /** Three such vectors of the same size: coordinates of points. */
+  void coordinates();
   /** A label, or the name of a file or a type: a string of no more than 4096 bytes. */
   void text();
 

@@ -122,7 +122,7 @@ void velodyneScan(LayoutCursor& in, int version) {
   in.part({kPose3D});
   in.list(sizeof(Scan::TVelodyneRawPacket));
   in.list(sizeof(mrpt::obs::VelodyneCalibration::PerLaserCalib));
-  for (int axis = 0; axis < 3; ++axis) in.list(kFloat);
+  in.coordinates();
   in.list(1);
   if (version >= 1) in.skip(1);
   if (version < 2) return;

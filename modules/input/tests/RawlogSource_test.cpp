@@ -1,6 +1,7 @@
 #include "lamp/input/RawlogSource.h"
 
 #include <gmock/gmock.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 
 #include <algorithm>
 
@@ -357,6 +358,50 @@ TEST_F(RawlogSourceTest, LoadsExternalCloudsFromEachRawlogsFolder) {
   ASSERT_EQ(scan->size(), 1u);
   EXPECT_EQ(scan->points[0].x(), 7);
   EXPECT_THAT(source.warnings(), Contains(HasSubstr("data file is missing")));
+}
+
+/** A cloud and a depth image whose data lie in the given files. */
+Objects withExternalFiles(const std::string& cloud_file, const std::string& points_file,
+                          const std::string& ranges_file) {
+  auto o = cloud(1, "lidar");
+  o->setAsExternalStorage(
+      cloud_file, mrpt::obs::CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization);
+  auto depth = mrpt::obs::CObservation3DRangeScan::Create();
+  depth->timestamp = mrpt::Clock::fromDouble(2);
+  depth->sensorLabel = "depth";
+  depth->hasPoints3D = depth->hasRangeImage = true;
+  depth->resizePoints3DVectors(3);
+  depth->rangeImage_setSize(2, 2);
+  depth->points3D_convertToExternalStorage(points_file, "");
+  depth->rangeImage_convertToExternalStorage(ranges_file, "");
+  return {o, depth};
+}
+
+TEST_F(RawlogSourceTest, LoadsExternalObjectsOnlyIfTheirSizesAreRight) {
+  const std::string clouds = folder_ + "/cloud.bin", points = folder_ + "/points.bin",
+                    ranges = folder_ + "/ranges.bin";
+  const std::string path = write("a.rawlog", withExternalFiles(clouds, points, ranges));
+  const std::string whole = bytesOf(*cloud(1, "")->pointcloud);
+  const auto loaded = [&] {
+    RawlogSource source({path}, {}, table_);
+    return drain(source);
+  };
+  writeFile(clouds, whole);
+  EXPECT_THAT(loaded(), ElementsAre("a:lidar@10", "a:depth@20"));
+  const std::string points_whole = readFile(points), ranges_whole = readFile(ranges);
+
+  const size_t size = whole.find(std::string("\x64\0\0\0", 4));  // 100 points
+  ASSERT_NE(size, std::string::npos);
+  writeFile(clouds, std::string(whole).replace(size, 4, "\xff\xff\xff\x7f"));
+  EXPECT_THAT(loaded(), ElementsAre("a:depth@20"));
+  writeFile(clouds, whole);
+  writeFile(points, "\xff\xff\xff\x7f" + points_whole);
+  EXPECT_THAT(loaded(), ElementsAre("a:lidar@10"));
+  writeFile(points, points_whole);
+  writeFile(ranges, "\xff\xff\xff\x7f\xff\xff\xff\x7f");
+  EXPECT_THAT(loaded(), ElementsAre("a:lidar@10"));
+  writeFile(ranges, ranges_whole);
+  EXPECT_THAT(loaded(), ElementsAre("a:lidar@10", "a:depth@20"));
 }
 
 }  // namespace
