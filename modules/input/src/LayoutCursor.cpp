@@ -27,6 +27,12 @@ uint64_t LayoutCursor::integer(size_t bytes) {
   return value;
 }
 
+bool LayoutCursor::flag() {
+  const uint8_t value = byte();
+  if (value > 1) damaged("a flag that is neither set nor unset");
+  return value == 1;
+}
+
 void LayoutCursor::array(uint64_t count, size_t bytes_each) {
   if (count > RewindableStream::kMaxKeptBytes / bytes_each) damaged("a size beyond all bounds");
   stream_.require(static_cast<size_t>(count) * bytes_each);

@@ -27,7 +27,10 @@ class LayoutCursor {
   uint16_t shortNumber() { return static_cast<uint16_t>(integer(2)); }
   uint32_t number() { return static_cast<uint32_t>(integer(4)); }
   uint64_t longNumber() { return integer(8); }
-  bool flag() { return byte() != 0; }
+  /** MRPT reads the byte into a bool, which must not be anything but 0 or 1. */
+  bool flag();
+  /** A bool that old releases left without a value, and that nobody here looks at. */
+  bool unusedFlag() { return byte() != 0; }
 
   void skip(uint64_t bytes) { array(bytes, 1); }
   void array(uint64_t count, size_t bytes_each);

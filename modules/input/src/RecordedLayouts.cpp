@@ -46,10 +46,10 @@ void movement2D(LayoutCursor& in, int version) {
     odometry ? planarIncrement(in, version) : in.part({kPoseGaussian, kPoseParticles});
   }
   if (version == 0) return;
-  const bool velocities = in.flag();
+  const bool velocities = in.unusedFlag();
   if (version < 7) in.skip(2 * kFloat);
   if (version >= 7 && velocities) in.skip(3 * kDouble);
-  const bool encoders = in.flag();
+  const bool encoders = in.unusedFlag();
   if (version < 7 || encoders) in.skip(8);
   if (version >= 6) in.skip(kStamp);
 }
@@ -62,7 +62,9 @@ void movement3D(LayoutCursor& in, int version) {
 }
 
 void laser(LayoutCursor& in, int version) {
-  in.skip(2 * kFloat + 1);
+  in.skip(kFloat);
+  in.flag();
+  in.skip(kFloat);
   in.part({kPose3D});
   if (version < 6) in.part({kMatrixF});
   const uint32_t rays = in.number();
@@ -82,7 +84,7 @@ void pointCloud(LayoutCursor& in, int) {
   in.text();
   in.skip(kStamp);
   in.part({kPose3D});
-  const bool in_other_file = in.flag();
+  const bool in_other_file = in.byte() != 0;
   if (in_other_file) return in.text();
   in.optionalPart({kSimplePoints, kPointsXYZI, kColouredPoints, kWeightedPoints});
 }
@@ -101,7 +103,8 @@ void rotatingScan(LayoutCursor& in, int) {
   in.text();
   in.skip(2 * kDouble);
   in.part({kPose3D});
-  in.skip(kStamp + 1);
+  in.skip(kStamp);
+  in.flag();
   const uint64_t columns = in.shortNumber(), rows = in.shortNumber();
   in.array(rows * columns, 2);
   const uint64_t intensity_columns = in.shortNumber();
@@ -124,7 +127,7 @@ void velodyneScan(LayoutCursor& in, int version) {
   in.list(sizeof(mrpt::obs::VelodyneCalibration::PerLaserCalib));
   in.coordinates();
   in.list(1);
-  if (version >= 1) in.skip(1);
+  if (version >= 1) in.flag();
   if (version < 2) return;
   const auto typeNames = [&] {
     in.text();
@@ -175,10 +178,10 @@ void depthScan(LayoutCursor& in, int version) {
   in.skip(kFloat + kStamp);
   in.text();
   for (int file = 0; version >= 3 && file < 2; ++file) {
-    in.skip(1);
+    in.flag();
     in.text();
   }
-  if (version >= 5) in.skip(1);
+  if (version >= 5) in.flag();
   if (version >= 6) in.skip(1);
   if (version >= 7 && in.flag()) pixelLabels(in);
   if (version < 10) return;
@@ -193,9 +196,9 @@ void wheelOdometry(LayoutCursor& in, int version) {
   in.text();
   in.skip(kStamp);
   if (version == 0) return;
-  const bool encoders = in.flag();
+  const bool encoders = in.unusedFlag();
   if (encoders || version < 2) in.skip(8);
-  const bool velocities = in.flag();
+  const bool velocities = in.unusedFlag();
   if (version < 2) {
     in.skip(2 * kFloat);
   } else if (velocities) {
@@ -212,7 +215,7 @@ void robotPose(LayoutCursor& in, int version) {
 void inertialUnit(LayoutCursor& in, int version) {
   in.part({kPose3D});
   if (version >= 4) {
-    in.skip(mrpt::obs::COUNT_IMU_DATA_FIELDS);
+    for (int field = 0; field < mrpt::obs::COUNT_IMU_DATA_FIELDS; ++field) in.flag();
     in.skip(kStamp);
     in.array(mrpt::obs::COUNT_IMU_DATA_FIELDS, kDouble);
   } else {

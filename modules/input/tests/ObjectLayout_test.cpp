@@ -298,6 +298,26 @@ TEST(ObjectLayout, AFrameHoldsNoNothing) {
   recording.read();
 }
 
+TEST(ObjectLayout, AFlagIsSetOrNot) {
+  CObservationIMU unit;
+  unit.dataIsPresent.fill(true);
+  std::string bytes = bytesOf(unit);
+  const size_t flags = bytes.find(std::string(31, '\x01'));
+  ASSERT_NE(flags, std::string::npos);
+  bytes[flags + 7] = '\x1f';
+  AlteredRecording recording;
+  recording.add(bytes);
+  recording.read();
+}
+
+TEST(ObjectLayout, PointsHaveThreeCoordinates) {
+  auto scan = velodyneScan();
+  scan->point_cloud.y.pop_back();
+  AlteredRecording recording;
+  recording.add(bytesOf(*scan));
+  recording.read();
+}
+
 TEST(ObjectLayout, APartOfAnotherClassIsDamage) {
   const std::string path = freshFolder() + "/part.rawlog";
   std::string bytes = bytesOf(*cloud(2, "lidar"));
