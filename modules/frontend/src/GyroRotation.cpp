@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lamp/core/Csv.h"
 #include "lamp/input/ExtrasFromObservation.h"
@@ -21,7 +22,9 @@ constexpr double kContradiction = 4.0, kContradictionRad = 0.01;
 /** Rotations of so many standard deviations tell; after so many, of which so many contradict, the
  * unit is given up. */
 constexpr double kTelling = 4.0;
-constexpr size_t kComparisons = 20, kContradictions = 10;
+constexpr size_t kComparisons = 10, kContradictions = 5;
+/** Between scans less far apart the lidar's noise would pass for bias. */
+constexpr double kBaselineS = 2.0;
 
 Eigen::Vector3d logOf(const Eigen::Matrix3d& rotation) {
   const Eigen::AngleAxisd turn(rotation);
@@ -36,7 +39,7 @@ Eigen::Matrix3d rotationBy(const Eigen::Vector3d& v) {
 
 }  // namespace
 
-bool contradict(const RotationPrior& a, const RotationPrior& b) {
+bool contradict(const MeasuredRotation& a, const MeasuredRotation& b) {
   return logOf(a.rotation.transpose() * b.rotation).norm() >
          std::max(kContradictionRad, kContradiction * std::hypot(a.sigma_rad, b.sigma_rad));
 }
@@ -56,7 +59,7 @@ bool GyroRotation::covers(double stamp) const {
   return given_up_ || readings_.empty() || readings_.back().stamp >= stamp;
 }
 
-std::optional<RotationPrior> GyroRotation::between(double from, double to) const {
+std::optional<MeasuredRotation> GyroRotation::between(double from, double to) const {
   if (given_up_) return std::nullopt;
   if (from <= to) return integrated(from, to);
   auto back = integrated(to, from);
@@ -65,7 +68,7 @@ std::optional<RotationPrior> GyroRotation::between(double from, double to) const
 }
 
 /** Rates between readings are interpolated, beyond the ends held. */
-std::optional<RotationPrior> GyroRotation::integrated(double from, double to) const {
+std::optional<MeasuredRotation> GyroRotation::integrated(double from, double to) const {
   if (readings_.empty() || from < readings_.front().stamp - kMaxGapS ||
       to > readings_.back().stamp + kMaxGapS)
     return std::nullopt;
@@ -94,32 +97,38 @@ std::optional<RotationPrior> GyroRotation::integrated(double from, double to) co
   }
   const double seconds = to - from;
   const double turned = std::abs(Eigen::AngleAxisd(rotation).angle());
-  return RotationPrior{rotation, std::sqrt(bias_variance_ * seconds * seconds +
-                                           kWalk * kWalk * seconds + std::pow(kScale * turned, 2))};
+  return MeasuredRotation{rotation,
+                          std::sqrt(bias_variance_ * seconds * seconds + kWalk * kWalk * seconds +
+                                    std::pow(kScale * turned, 2))};
 }
 
-void GyroRotation::compare(double from, double to, const RotationPrior& seen) {
-  const auto own = between(from, to);
-  const double seconds = to - from;
-  if (!own || !(seconds > 0)) return;
-  const Eigen::Vector3d difference = logOf(seen.rotation.transpose() * own->rotation);
-  const double sigma = std::hypot(own->sigma_rad, seen.sigma_rad);
-  const bool contradicts = contradict(*own, seen);
-  const double turned = std::max(logOf(seen.rotation).norm(), logOf(own->rotation).norm());
-  if (turned > kTelling * sigma) {
-    contradicted_.push_back(contradicts);
-    if (contradicted_.size() > kComparisons) contradicted_.pop_front();
-    const auto count = std::count(contradicted_.begin(), contradicted_.end(), true);
-    if (static_cast<size_t>(count) >= kContradictions) given_up_ = to;
-  }
+void GyroRotation::compare(double stamp, const MeasuredRotation& seen) {
+  if (!compared_) compared_ = {stamp, seen};
+  const double seconds = stamp - compared_->stamp;
+  if (seconds < kBaselineS) return;
+  const Seen from = *std::exchange(compared_, Seen{stamp, seen});
+  const auto own = between(from.stamp, stamp);
+  if (!own) return;
+  const MeasuredRotation turn{from.orientation.rotation.transpose() * seen.rotation,
+                              std::hypot(from.orientation.sigma_rad, seen.sigma_rad)};
+  const bool contradicts = contradict(*own, turn);
+  const double sigma = std::hypot(own->sigma_rad, turn.sigma_rad);
+  if (std::max(logOf(turn.rotation).norm(), logOf(own->rotation).norm()) > kTelling * sigma)
+    noteContradiction(contradicts, stamp);
   bias_variance_ += kBiasWalk * kBiasWalk * seconds;
   if (contradicts) return;
   // A Kalman filter, the same for all three axes.
-  const double variance =
-      (sigma * sigma - bias_variance_ * seconds * seconds) / (seconds * seconds);
-  const double gain = bias_variance_ / (bias_variance_ + std::max(0.0, variance));
-  bias_ += gain * difference / seconds;
+  const double other = sigma * sigma / (seconds * seconds) - bias_variance_;
+  const double gain = bias_variance_ / (bias_variance_ + std::max(0.0, other));
+  bias_ += gain * logOf(turn.rotation.transpose() * own->rotation) / seconds;
   bias_variance_ *= 1 - gain;
+}
+
+void GyroRotation::noteContradiction(bool contradicts, double stamp) {
+  contradicted_.push_back(contradicts);
+  if (contradicted_.size() > kComparisons) contradicted_.pop_front();
+  const auto count = std::count(contradicted_.begin(), contradicted_.end(), true);
+  if (static_cast<size_t>(count) >= kContradictions) given_up_ = stamp;
 }
 
 std::vector<std::string> GyroRotation::warnings() const {

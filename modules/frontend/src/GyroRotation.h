@@ -12,7 +12,7 @@
 namespace lamp {
 
 /** Whether two rotations cannot both be right. */
-bool contradict(const RotationPrior& a, const RotationPrior& b);
+bool contradict(const MeasuredRotation& a, const MeasuredRotation& b);
 
 /** How a robot turns, by the gyros of its inertial unit. Their bias follows from how the lidar sees
  * it turn; a unit that contradicts the lidar again and again (mounted otherwise than the recording
@@ -24,9 +24,9 @@ class GyroRotation {
   /** True once readings reach `stamp` (seconds, UTC), or if none are to be waited for. */
   bool covers(double stamp) const;
   /** The rotation between two moments; none if readings are missing, or not to be believed. */
-  std::optional<RotationPrior> between(double from, double to) const;
-  /** What the lidar saw of the same rotation. */
-  void compare(double from, double to, const RotationPrior& seen);
+  std::optional<MeasuredRotation> between(double from, double to) const;
+  /** How the robot stood at a stamp by the lidar alone, in a frame that stays the same. */
+  void compare(double stamp, const MeasuredRotation& seen);
   std::vector<std::string> warnings() const;
 
  private:
@@ -37,12 +37,19 @@ class GyroRotation {
     Eigen::Vector3d rate;  ///< rad/s, base frame
   };
 
-  std::optional<RotationPrior> integrated(double from, double to) const;
+  struct Seen {
+    double stamp;
+    MeasuredRotation orientation;
+  };
+
+  std::optional<MeasuredRotation> integrated(double from, double to) const;
+  void noteContradiction(bool contradicts, double stamp);
 
   std::optional<std::string> label_;  ///< of the unit that was heard first
   std::deque<Reading> readings_;
   Eigen::Vector3d bias_ = Eigen::Vector3d::Zero();  ///< rad/s
   double bias_variance_ = kBias * kBias;
+  std::optional<Seen> compared_;    ///< from there on the next comparison counts
   std::deque<bool> contradicted_;   ///< in the last comparisons that could tell
   std::optional<double> given_up_;  ///< stamp, seconds, UTC
 };

@@ -107,8 +107,19 @@ bool differs(const Pose3& motion, const MotionPrior& prior) {
              .surprise() > kWrongSurprise;
 }
 
+/** None if the surfaces do not hold all its axes. */
+std::optional<MeasuredRotation> orientationBy(const Pose3& registered,
+                                              const Matrix6d& information) {
+  const Eigen::Matrix3d rotations = information.bottomRightCorner<3, 3>();
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(rotations, Eigen::EigenvaluesOnly)
+          .eigenvalues()[0];
+  if (!(least > 0)) return std::nullopt;
+  return MeasuredRotation{registered.linear(), 1 / std::sqrt(least)};
+}
+
 /** The same motion with another rotation. */
-void turnBy(const RotationPrior& turn, MotionPrior& prior) {
+void turnBy(const MeasuredRotation& turn, MotionPrior& prior) {
   prior.motion.linear() = turn.rotation;
   prior.covariance.topRightCorner<3, 3>().setZero();
   prior.covariance.bottomLeftCorner<3, 3>().setZero();
@@ -207,7 +218,7 @@ Pose3 LidarOdometry::predictedMotion(double stamp) const {
 }
 
 MotionPrior LidarOdometry::constantVelocity(double seconds,
-                                            const std::optional<RotationPrior>& turn) const {
+                                            const std::optional<MeasuredRotation>& turn) const {
   MotionPrior prior;
   prior.motion = predictedMotion(poses_.back().stamp + seconds);
   if (!(last_motion_s_ > 0)) {
@@ -231,23 +242,32 @@ Pose3 LidarOdometry::track(double stamp, const ScanMotion& known, FilteredScan& 
   }
   Located best = locateBy(stamp, known, scan);
   if (known.turn) {
-    const auto seen = turnSeenBy(best);
-    if (!seen || contradict(*known.turn, *seen)) {
+    if (!best.tracked || contradicts(*known.turn, best)) {
       const Located without = locateBy(stamp, {known.recorded, std::nullopt}, scan);
       if (without.tracked && without.matched_share >= best.matched_share) best = without;
     }
   }
-  seen_turn_ = turnSeenBy(best);
+  seen_.reset();
+  if (best.tracked) seen_ = orientationBy(best.registered, best.information);
   if (!best.points.empty()) scan.points = std::move(best.points);
   accept(stamp, scan, best);
   return poses_.back().pose;
+}
+
+/** Whether gyros contradict what the last two scans say alone. */
+bool LidarOdometry::contradicts(const MeasuredRotation& turn, const Located& located) const {
+  const auto seen = orientationBy(located.registered, located.information);
+  if (!seen || !seen_) return false;
+  return contradict(turn, {seen_->rotation.transpose() * seen->rotation,
+                           std::hypot(seen_->sigma_rad, seen->sigma_rad)});
 }
 
 LidarOdometry::Located LidarOdometry::locateBy(double stamp, const ScanMotion& known,
                                                const FilteredScan& scan) {
   if (!known.recorded) return locateAlone(stamp, known.turn, scan, true);
   MotionPrior prior = recorded_weight_.weighed(*known.recorded);
-  if (known.turn) turnBy(*known.turn, prior);
+  const double variance = prior.covariance.diagonal().tail<3>().maxCoeff();
+  if (known.turn && std::pow(known.turn->sigma_rad, 2) < variance) turnBy(*known.turn, prior);
   Located best = locate(scan, prior, false);
   if (best.tracked) recorded_weight_.judge(best.innovation);
   if (!best.tracked || best.innovation.surprise() > kWrongSurprise)
@@ -290,22 +310,10 @@ void LidarOdometry::addDoubt(const Vector6d& disagreement) {
   doubt_ += diagonal(disagreement.head<3>().norm(), disagreement.tail<3>().norm());
 }
 
-/** Against the pose before, which the map holds about as well as this one. */
-std::optional<RotationPrior> LidarOdometry::turnSeenBy(const Located& located) const {
-  if (!located.tracked) return std::nullopt;
-  const Eigen::Matrix3d information = located.information.bottomRightCorner<3, 3>();
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information, Eigen::EigenvaluesOnly)
-          .eigenvalues()[0];
-  if (!(least > 0)) return std::nullopt;
-  return RotationPrior{poses_.back().pose.linear().transpose() * located.registered.linear(),
-                       std::sqrt(2 / least)};
-}
-
 /** Where the motion during the sweep is not measured but part of what is sought, scan and pose
  * follow from one another. What gyros have measured of it stays. */
 LidarOdometry::Located LidarOdometry::locateAlone(double stamp,
-                                                  const std::optional<RotationPrior>& turn,
+                                                  const std::optional<MeasuredRotation>& turn,
                                                   const FilteredScan& scan, bool anywhere) {
   constexpr int kPasses = 6;
   constexpr double kSmallM = 0.01;

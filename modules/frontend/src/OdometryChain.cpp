@@ -74,7 +74,7 @@ Pose3 OdometryChain::motion(double from, double to) const {
 }
 
 /** Of a robot in the plane the turn there. */
-std::optional<RotationPrior> OdometryChain::turn(double from, double to) const {
+std::optional<MeasuredRotation> OdometryChain::turn(double from, double to) const {
   auto turn = gyros_.between(from, to);
   if (turn && planar_) turn->rotation = planarPose(0, 0, yawOf(Pose3(turn->rotation))).linear();
   return turn;
@@ -100,7 +100,7 @@ Pose3 OdometryChain::track(double stamp, FilteredScan& scan) {
   planar_ = scan.planar;
   if (last_) known = {prior(*last_, stamp), turn(*last_, stamp)};
   const Pose3 odom_T_base = tracker_->track(stamp, known, scan);
-  if (const auto seen = tracker_->seenTurn(); last_ && seen) gyros_.compare(*last_, stamp, *seen);
+  if (const auto seen = tracker_->seenOrientation()) gyros_.compare(stamp, *seen);
   last_ = stamp;
   return odom_T_base;
 }

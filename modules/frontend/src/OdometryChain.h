@@ -56,7 +56,7 @@ class OdometryChain {
   OdometrySource* recorded() const;
   bool recordedKnows(double from, double to) const;
   Pose3 motionWithoutGyros(double from, double to) const;
-  std::optional<RotationPrior> turn(double from, double to) const;
+  std::optional<MeasuredRotation> turn(double from, double to) const;
   std::optional<MotionPrior> prior(double from, double to) const;
 
   std::shared_ptr<ScanOdometry> tracker_;

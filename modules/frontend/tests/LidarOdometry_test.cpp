@@ -201,7 +201,7 @@ TEST(LidarOdometry, TakesTheRotationWithinLongSweepsFromGyros) {
   for (int i = 0; i <= 15; ++i) {
     FilteredScan scan = longSweep(i, yaw_at, static_cast<unsigned>(i));
     const double turned = i > 0 ? 1.02 * (yaw_at(i) - yaw_at(i - 1)) : 0;
-    const RotationPrior turn{planarPose(0, 0, turned).linear(), 0.01};
+    const MeasuredRotation turn{planarPose(0, 0, turned).linear(), 0.01};
     const Pose3 pose = odometry.track(kStart + i, {std::nullopt, turn}, scan);
     EXPECT_NEAR(yawOf(pose.inverse() * planarPose(0, 0, yaw_at(i))), 0, 0.02) << i;
   }
@@ -214,12 +214,13 @@ TEST(LidarOdometry, DoesNotFollowGyrosThatAreMountedUpsideDown) {
   for (int i = 0; i <= 100; ++i) {
     const Pose3 truth = onCircle(4 * i * kStep);  // 0.4 rad/s
     FilteredScan scan = hallSeenFrom(truth, static_cast<unsigned>(i));
-    const RotationPrior turn{(truth.inverse() * previous).linear(), 0.001};
+    const MeasuredRotation turn{(truth.inverse() * previous).linear(), 0.001};
     pose = odometry.track(kStart + i * kStep, {std::nullopt, turn}, scan);
     if (i > 0) {
-      ASSERT_TRUE(odometry.seenTurn());
-      EXPECT_LT((odometry.seenTurn()->rotation - (previous.inverse() * truth).linear()).norm(),
-                0.02);
+      ASSERT_TRUE(odometry.seenOrientation());
+      EXPECT_LT(
+          (odometry.seenOrientation()->rotation - (onCircle(0).inverse() * truth).linear()).norm(),
+          0.02);
     }
     previous = truth;
   }

@@ -58,7 +58,7 @@ class LidarOdometry : public ScanOdometry {
 
   Pose3 predictedMotion(double stamp) const override;
   Pose3 track(double stamp, const ScanMotion& known, FilteredScan& scan) override;
-  std::optional<RotationPrior> seenTurn() const override { return seen_turn_; }
+  std::optional<MeasuredRotation> seenOrientation() const override { return seen_; }
 
  private:
   /** A pose that a scan may have, and why. */
@@ -75,15 +75,15 @@ class LidarOdometry : public ScanOdometry {
   };
 
   void beginMap(const FilteredScan& scan, const Pose3& odom_T_base);
-  MotionPrior constantVelocity(double seconds, const std::optional<RotationPrior>& turn) const;
+  MotionPrior constantVelocity(double seconds, const std::optional<MeasuredRotation>& turn) const;
   Located locate(const FilteredScan& scan, const MotionPrior& motion, bool anywhere,
                  const std::optional<Pose3>& nearby = {});
   Located locateBy(double stamp, const ScanMotion& known, const FilteredScan& scan);
-  Located locateAlone(double stamp, const std::optional<RotationPrior>& turn,
+  Located locateAlone(double stamp, const std::optional<MeasuredRotation>& turn,
                       const FilteredScan& scan, bool anywhere);
   Located settle(double stamp, const ScanMotion& known, const FilteredScan& scan,
                  const Located& by_prior);
-  std::optional<RotationPrior> turnSeenBy(const Located& located) const;
+  bool contradicts(const MeasuredRotation& turn, const Located& located) const;
   void addDoubt(const Vector6d& disagreement);
   void accept(double stamp, const FilteredScan& scan, const Located& located);
   void extendMap(const FilteredScan& scan, const Pose3& odom_T_base);
@@ -103,7 +103,7 @@ class LidarOdometry : public ScanOdometry {
   double usual_share_ = 0;             ///< of a scan that matches the map, mean of the last ones
 
   PriorWeight recorded_weight_;
-  std::optional<RotationPrior> seen_turn_;
+  std::optional<MeasuredRotation> seen_;  ///< orientation by the last scan alone
   size_t lost_in_a_row_ = 0;
   int contradictions_in_a_row_ = 0;
   double lost_s_ = 0;  ///< for how long already

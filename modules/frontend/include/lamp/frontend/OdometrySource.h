@@ -46,16 +46,16 @@ struct MotionPrior {
   Matrix6d covariance = Matrix6d::Identity();  ///< in the tangent space at the motion
 };
 
-/** What gyros say of the rotation between two moments. */
-struct RotationPrior {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< `from_R_to`, base frame
-  double sigma_rad = 0;                                    ///< about each axis
+/** A rotation, as gyros or a scan tell it. */
+struct MeasuredRotation {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  double sigma_rad = 0;  ///< about each axis
 };
 
 /** What is known of the motion between two scans without them. */
 struct ScanMotion {
-  std::optional<MotionPrior> recorded;  ///< from another source of odometry
-  std::optional<RotationPrior> turn;    ///< from gyros, measured during the scan as well
+  std::optional<MotionPrior> recorded;   ///< from another source of odometry
+  std::optional<MeasuredRotation> turn;  ///< from gyros, measured during the scan as well
 };
 
 /** A scan as odometry needs it. */
@@ -82,9 +82,8 @@ class ScanOdometry : public OdometrySource {
    * points are put where the motion that is found wants them. \return `odom_T_base` at the scan's
    * stamp, as poseAt() will. */
   virtual Pose3 track(double stamp, const ScanMotion& known, FilteredScan& scan) = 0;
-  /** How the robot has turned between the last two scans, by the last scan alone; none if it does
-   * not tell. */
-  virtual std::optional<RotationPrior> seenTurn() const = 0;
+  /** `odom_R_base` by the last scan alone; none if it does not tell. */
+  virtual std::optional<MeasuredRotation> seenOrientation() const = 0;
 };
 
 /** Registers LidarOdometry and RecordedOdometry. */
