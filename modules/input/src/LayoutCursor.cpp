@@ -1,6 +1,7 @@
 #include "LayoutCursor.h"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -57,6 +58,13 @@ void LayoutCursor::text() {
   constexpr uint32_t kMaxText = 4096;
   const uint32_t size = number();
   if (size > kMaxText) damaged("a text beyond all bounds");
+  skip(size);
+}
+
+void LayoutCursor::text(std::string_view expected) {
+  const uint32_t size = number();
+  if (size != expected.size() || std::memcmp(stream_.require(size), expected.data(), size) != 0)
+    damaged("another text than " + std::string(expected));
   skip(size);
 }
 

@@ -42,6 +42,7 @@ class LayoutCursor {
   void coordinates();
   /** A label, or the name of a file or a type: a string of no more than 4096 bytes. */
   void text();
+  void text(std::string_view expected);
 
   using Classes = std::initializer_list<std::string_view>;
   /** A part of one of the classes. */

@@ -147,7 +147,8 @@ void pixelLabels(LayoutCursor& in) {
   if (bytes_each == 0) throw std::runtime_error("labels without a size");
   const uint32_t rows = in.number();
   in.grid(rows, in.number(), bytes_each);
-  for (int type_name = 0; type_name < 3; ++type_name) in.text();
+  // MRPT loses the memory of the labels if one of these is another.
+  for (const char* type : {"std::map", "uint32_t", "std::string"}) in.text(type);
   for (uint32_t names = in.number(); names > 0; --names) {
     in.skip(4);
     in.text();
