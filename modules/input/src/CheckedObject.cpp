@@ -2,6 +2,7 @@
 
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CMemoryStream.h>
+#include <mrpt/obs/CObservation.h>
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -20,11 +21,12 @@ using mrpt::io::CMemoryStream;
 using mrpt::serialization::archiveFrom;
 using mrpt::serialization::CSerializable;
 
-/** Not MRPT's, and so of a plugin. */
-bool isForeign(const RewindableStream& stream, size_t ready) {
+/** Whether an observation follows whose class a plugin has brought. */
+bool isOfPlugin(RewindableStream& stream) {
+  const size_t ready = stream.prepare(kMaxHeaderBytes);
   const auto name = parseObjectHeader(stream.data(), ready);
   const auto* id = name ? mrpt::rtti::findRegisteredClass(*name) : nullptr;
-  if (!id) return false;
+  if (!id || !id->derivedFrom(CLASS_ID(mrpt::obs::CObservation))) return false;
   const std::string_view full_name = id->className;
   return full_name.substr(0, 6) != "mrpt::" && recordedLayouts().count(full_name) == 0;
 }
@@ -62,7 +64,7 @@ CSerializable::Ptr readFrom(const void* bytes, uint64_t size) {
 }  // namespace
 
 CSerializable::Ptr readCheckedObject(RewindableStream& stream) {
-  if (isForeign(stream, stream.prepare(kMaxHeaderBytes))) return archiveFrom(stream).ReadObject();
+  if (isOfPlugin(stream)) return archiveFrom(stream).ReadObject();
   const uint64_t start = stream.position();
   const ObjectLayout layout = layoutOf(stream);
   if (layout.pictures.empty()) return readFrom(stream.dataAt(start), layout.end - start);

@@ -27,8 +27,9 @@ class RewindableStream : public mrpt::io::CStream {
   const uint8_t* data() const { return buffer_.data() + cursor_; }
 
   uint64_t position() const { return buffer_start_ + cursor_; }
-  /** Makes `count` bytes ready, or as many as `kMaxKeptBytes` allow.
-   *  \return the bytes. \throws std::runtime_error if there are not so many. */
+  /** Makes `count` bytes ready.
+   *  \return the bytes. \throws std::runtime_error if there are not so many, or more than
+   *  `kMaxKeptBytes` since the last mark. */
   const uint8_t* require(size_t count);
   /** \param count no more bytes than are ready. */
   void skip(size_t count) { cursor_ += count; }
