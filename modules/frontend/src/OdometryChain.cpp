@@ -10,6 +10,10 @@ namespace {
  * are seconds apart. Seconds of the recording. */
 constexpr double kPatienceS = 1.0, kKeyedPatienceS = 10.0;
 
+/** Stamps of scans and of odometry agree to this part of the time between two scans, and at least to
+ * this: drivers add delays of their own, and robots speed up and turn between two readings. */
+constexpr double kStampShare = 0.25, kMostStampS = 0.1;
+
 }  // namespace
 
 OdometryChain::OdometryChain(std::vector<std::shared_ptr<OdometrySource>> sources, bool keyed,
@@ -46,7 +50,7 @@ OdometrySource& OdometryChain::main() const {
 
 bool OdometryChain::ready(double stamp) {
   const OdometrySource* const other = recorded();
-  const bool covered = other && other->covers(stamp);
+  const bool covered = other && other->covers(stamp + stamp_sigma_s_);
   const bool waited = newest_ > stamp + (keyed_ ? kKeyedPatienceS : kPatienceS);
   if (!tracks_ && (covered || waited)) tracks_ = !keyed_ || !covered;
   if (!gyros_.covers(stamp) && !waited) return false;
@@ -91,13 +95,29 @@ std::optional<MotionPrior> OdometryChain::prior(double from, double to) const {
   OdometrySource& source = *recorded();
   const Pose3 motion = source.poseAt(from).inverse() * source.poseAt(to);
   const auto covariance = source.covarianceBetween(from, to);
-  return MotionPrior{motion, source.doubtBetween(from, to) +
+  return MotionPrior{motion, source.doubtBetween(from, to) + stampCovariance(from, to, motion) +
                                  (covariance ? *covariance : stepCovariance(motion, motion_))};
+}
+
+/** By how much the motion would be another one if stamps were off: not at all for a robot that
+ * moves evenly. */
+Matrix6d OdometryChain::stampCovariance(double from, double to, const Pose3& motion) const {
+  Matrix6d covariance = Matrix6d::Zero();
+  for (const double shift : {-stamp_sigma_s_, stamp_sigma_s_}) {
+    if (!recordedKnows(from + shift, to + shift)) continue;
+    const Pose3 shifted =
+        recorded()->poseAt(from + shift).inverse() * recorded()->poseAt(to + shift);
+    const Vector6d change = logSE3(motion.inverse() * shifted);
+    covariance.diagonal().head<3>().array() += 0.5 * change.head<3>().squaredNorm();
+    covariance.diagonal().tail<3>().array() += 0.5 * change.tail<3>().squaredNorm();
+  }
+  return covariance;
 }
 
 Pose3 OdometryChain::track(double stamp, FilteredScan& scan) {
   ScanMotion known;
   planar_ = scan.planar;
+  if (last_) stamp_sigma_s_ = std::min(kMostStampS, kStampShare * (stamp - *last_));
   if (last_) known = {prior(*last_, stamp), turn(*last_, stamp)};
   const Pose3 odom_T_base = tracker_->track(stamp, known, scan);
   if (const auto seen = tracker_->seenOrientation()) gyros_.compare(stamp, *seen);

@@ -58,13 +58,15 @@ class OdometryChain {
   Pose3 motionWithoutGyros(double from, double to) const;
   std::optional<MeasuredRotation> turn(double from, double to) const;
   std::optional<MotionPrior> prior(double from, double to) const;
+  Matrix6d stampCovariance(double from, double to, const Pose3& motion) const;
 
   std::shared_ptr<ScanOdometry> tracker_;
   std::vector<std::shared_ptr<OdometrySource>> others_;
   const bool keyed_;
   const MotionModelOptions motion_;
   GyroRotation gyros_;
-  bool planar_ = false;  ///< the last scan tracked
+  double stamp_sigma_s_ = 0;  ///< how well stamps of scans and of odometry agree
+  bool planar_ = false;       ///< the last scan tracked
   std::optional<bool> tracks_;
   double newest_ = 0;           ///< stamp, of all observations
   std::optional<double> last_;  ///< stamp of the last scan tracked

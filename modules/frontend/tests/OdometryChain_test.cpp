@@ -55,6 +55,24 @@ TEST(OdometryChain, NeedsNoRecordedOdometry) {
   EXPECT_TRUE(odometry.covers(kStart));
 }
 
+TEST(OdometryChain, OdometryThatComesLateDoesNotBendTheMapOfARobotThatSwings) {
+  OdometryChain odometry = chain(true, true);
+  const auto yaw_at = [](double t) { return 0.8 * std::sin(3 * t); };
+  constexpr double kLate = 0.05;
+  double worst = 0;
+  int next = 0;
+  for (int k = 0; k <= 60; ++k) {
+    const double t = 0.2 * k;
+    for (; 0.02 * next <= t + 1; ++next)
+      odometry.observe(wheels(kStart + 0.02 * next, 0, 0, yaw_at(0.02 * next - kLate)));
+    ASSERT_TRUE(odometry.ready(kStart + t));
+    FilteredScan scan = hallSeenFrom(planarPose(0, 0, yaw_at(t)), static_cast<unsigned>(k));
+    worst = std::max(worst, std::abs(yawOf(odometry.track(kStart + t, scan)) - yaw_at(t)));
+  }
+  EXPECT_LT(worst, 0.01) << "the wheels are up to 0.12 off";
+  EXPECT_TRUE(odometry.warnings().empty());
+}
+
 TEST(OdometryChain, KeyedScansFollowTheOdometryThatKeyedThem) {
   OdometryChain odometry = chain(true, true, true);
   odometry.observe(wheels(kStart, 0));
