@@ -8,8 +8,6 @@ void NeighborsOptions::visit(OptionVisitor& v) {
   v("max_index_gap", max_index_gap, "key nodes",
     "a key node is registered with so many before it; 0 leaves the motion between them to odometry",
     kNotNegative);
-  v("planar_max_index_gap", planar_max_index_gap, "key nodes",
-    "the same for robots in the plane, whose scans cost less and say less", kNotNegative);
 }
 
 std::vector<LoopClosureCandidate> Neighbors::propose(const PoseGraph& graph,
@@ -17,8 +15,7 @@ std::vector<LoopClosureCandidate> Neighbors::propose(const PoseGraph& graph,
   std::vector<LoopClosureCandidate> candidates;
   const Node& node = graph.node(current);
   if (!isFinite(node.world_T_base)) return candidates;
-  const auto reach =
-      static_cast<uint32_t>(node.planar ? options.planar_max_index_gap : options.max_index_gap);
+  const auto reach = static_cast<uint32_t>(options.max_index_gap);
   for (uint32_t gap = 1; gap <= reach && gap <= current.index; ++gap) {
     const KeyNodeId before{current.robot, current.index - gap};
     if (!graph.contains(before) || graph.node(before).planar != node.planar ||

@@ -6,7 +6,6 @@ namespace lamp {
 
 struct NeighborsOptions {
   int max_index_gap = 2;
-  int planar_max_index_gap = 4;
 
   void visit(OptionVisitor& v);
 };

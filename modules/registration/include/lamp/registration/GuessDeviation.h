@@ -6,7 +6,7 @@ namespace lamp {
 
 struct GuessDeviationOptions {
   double probability = 0.99;
-  double slack_m = 0.3;
+  double slack_m = 0.5;
   double slack_deg = 5.0;
 
   void visit(OptionVisitor& v);
