@@ -10,9 +10,11 @@ namespace {
  * are seconds apart. Seconds of the recording. */
 constexpr double kPatienceS = 1.0, kKeyedPatienceS = 10.0;
 
-/** Stamps of scans and of odometry agree to this part of the time between two scans, and at least to
- * this: drivers add delays of their own, and robots speed up and turn between two readings. */
-constexpr double kStampShare = 0.25, kMostStampS = 0.1;
+/** Stamps of scans and of odometry agree to this part of the time between two scans, or better than
+ * this, seconds: drivers add delays of their own, and robots speed up and turn between two
+ * readings.
+ */
+constexpr double kStampShare = 0.25, kMostStampS = 0.25;
 
 }  // namespace
 
