@@ -90,6 +90,14 @@ LampResult runRegister(const std::vector<std::string>& arguments) {
   return LampProcess(LAMP_REGISTER, arguments).wait();
 }
 
+LampResult runOdometry(const std::vector<std::string>& arguments) {
+  return LampProcess(LAMP_ODOMETRY, arguments).wait();
+}
+
+LampResult runLocalize(const std::vector<std::string>& arguments) {
+  return LampProcess(LAMP_LOCALIZE, arguments).wait();
+}
+
 LampResult runSimulator(const std::vector<std::string>& arguments) {
   return LampProcess(LAMP_SIM, arguments).wait();
 }

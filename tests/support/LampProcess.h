@@ -41,6 +41,10 @@ class LampProcess {
 LampResult runLamp(const std::vector<std::string>& arguments);
 /** Runs lamp-register to its end. */
 LampResult runRegister(const std::vector<std::string>& arguments);
+/** Runs lamp-odometry to its end. */
+LampResult runOdometry(const std::vector<std::string>& arguments);
+/** Runs lamp-localize to its end. */
+LampResult runLocalize(const std::vector<std::string>& arguments);
 /** Runs lamp-sim to its end. */
 LampResult runSimulator(const std::vector<std::string>& arguments);
 

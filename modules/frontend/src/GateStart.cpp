@@ -14,6 +14,10 @@ constexpr double kStandM = 0.03, kStandRad = 0.5 * M_PI / 180.0;
 /** A sweep takes as long as this, and odometry needs a little until it tells of a motion. */
 constexpr double kSettingOffS = 0.2;
 
+bool isMotion(const Pose3& motion) {
+  return motion.translation().norm() > kStandM || rotationAngle(motion) > kStandRad;
+}
+
 }  // namespace
 
 GateStart::GateStart(const GateOptions& gate, const ScanOptions& scan)
@@ -39,8 +43,7 @@ bool GateStart::hasMoved(const InputObservation& observation) {
   const auto reading = odometryFromObservation(*observation.observation);
   if (!reading) return false;
   if (!begin_ || !odom_T_start_) odom_T_start_ = reading->odom_T_base;
-  const Pose3 motion = odom_T_start_->inverse() * reading->odom_T_base;
-  return motion.translation().norm() > kStandM || rotationAngle(motion) > kStandRad;
+  return isMotion(odom_T_start_->inverse() * reading->odom_T_base);
 }
 
 void GateStart::takeUpTo(double stamp) {
@@ -70,7 +73,9 @@ void GateStart::decide() {
 
 std::vector<KeyNodePacket> GateStart::pass(std::vector<KeyNodePacket> packets) {
   for (KeyNodePacket& packet : packets) waiting_.push_back(std::move(packet));
-  if (!result_ && waiting_.size() > 1) decide();
+  if (!result_ && waiting_.size() > 1 &&
+      isMotion(waiting_.front().odom_T_base.inverse() * waiting_.back().odom_T_base))
+    decide();
   if (!result_) return {};
   for (KeyNodePacket& packet : waiting_)
     if (packet.id.index == 0 && result_->pose) packet.prior = result_->pose;

@@ -18,10 +18,11 @@ GateOptions gate() {
   return options;
 }
 
-/** One key node. */
-std::vector<KeyNodePacket> packets(uint32_t index) {
+/** One key node. \param x_m of the robot, by odometry. */
+std::vector<KeyNodePacket> packets(uint32_t index, double x_m = 0) {
   KeyNodePacket packet;
   packet.id = {kRobot, index};
+  packet.odom_T_base = planarPose(x_m, 0, 0);
   return {packet};
 }
 
@@ -63,11 +64,12 @@ TEST(GateStart, ARobotThatNeverStandsIsRefused) {
   EXPECT_THAT(start.warnings(), ElementsAre(HasSubstr("does not stand")));
 }
 
-TEST(GateStart, NoMoreThanOneKeyNodeWaits) {
+TEST(GateStart, KeyNodesWaitNoLongerThanUntilOneIsElsewhere) {
   GateStart start(gate(), {});
   start.observe(scan(kStart));
   EXPECT_TRUE(start.pass(packets(0)).empty());
-  EXPECT_EQ(start.pass(packets(1)).size(), 2u);
+  EXPECT_TRUE(start.pass(packets(1, 0.01)).empty()) << "where each scan is one";
+  EXPECT_EQ(start.pass(packets(2, 2)).size(), 3u);
 }
 
 TEST(GateStart, NothingIsLeftWhenARecordingEnds) {

@@ -90,17 +90,25 @@ bool isUpright(const Pose3& map_T_scan) {
   return map_T_scan.linear()(2, 2) > kCosineOf45Degrees;
 }
 
-/** What one view led to. */
-struct ViewOutcome {
-  LoopClosureAttempt attempt;
-  double overlap = 0;  ///< of the scan with the view from where the pose puts it
-};
+/** The scan against the view from where the pose puts it: only that shows all that it should see.
+ */
+MapVerification verifyAt(const PreparedScan& scan, const Vector3f& viewpoint,
+                         const Pose3& map_T_scan, const Views& views,
+                         const LoopClosureComputation& computation) {
+  Hypothesis hypothesis;
+  hypothesis.target_T_source = map_T_scan;
+  const PreparedScanPtr view = views.from((map_T_scan * viewpoint.cast<double>()).cast<float>());
+  MapVerification outcome;
+  outcome.attempt = computation.follow(scan, *view, Guess(), hypothesis);
+  outcome.overlap =
+      agreement(scan, *view, outcome.attempt.result.target_T_source, kPartnerDistance_m).overlap;
+  return outcome;
+}
 
-/** Registers the scan with the view from a place, and verifies the pose with the view from where it
- * puts the scan: only that shows all that the scan should see. */
-ViewOutcome tryView(const PreparedScan& scan, const Vector3f& viewpoint, const Vector3f& place,
-                    const Views& views, const LoopClosureComputation& computation) {
-  ViewOutcome outcome;
+/** Registers the scan with the view from a place, and verifies the pose. */
+MapVerification tryView(const PreparedScan& scan, const Vector3f& viewpoint, const Vector3f& place,
+                        const Views& views, const LoopClosureComputation& computation) {
+  MapVerification outcome;
   outcome.attempt = computation.compute(scan, *views.from(place), Guess());
   if (!outcome.attempt.accepted) return outcome;
   if (!isUpright(outcome.attempt.result.target_T_source)) {
@@ -109,17 +117,10 @@ ViewOutcome tryView(const PreparedScan& scan, const Vector3f& viewpoint, const V
     outcome.attempt.reason = "the scan does not stand upright";
     return outcome;
   }
-  Hypothesis hypothesis;
-  hypothesis.target_T_source = outcome.attempt.result.target_T_source;
-  const PreparedScanPtr own_view =
-      views.from((hypothesis.target_T_source * viewpoint.cast<double>()).cast<float>());
-  LoopClosureAttempt verified = computation.follow(scan, *own_view, Guess(), hypothesis);
-  verified.alignments = std::move(outcome.attempt.alignments);
-  outcome.attempt = std::move(verified);
-  outcome.overlap =
-      agreement(scan, *own_view, outcome.attempt.result.target_T_source, kPartnerDistance_m)
-          .overlap;
-  return outcome;
+  MapVerification verified =
+      verifyAt(scan, viewpoint, outcome.attempt.result.target_T_source, views, computation);
+  verified.attempt.alignments = std::move(outcome.attempt.alignments);
+  return verified;
 }
 
 size_t mostInliers(const LoopClosureAttempt& attempt) {
@@ -131,9 +132,9 @@ size_t mostInliers(const LoopClosureAttempt& attempt) {
 }
 
 /** Accepted ones first, by their overlap; then those with more matches; of equals the first. */
-const ViewOutcome& bestOf(const std::vector<ViewOutcome>& outcomes) {
+const MapVerification& bestOf(const std::vector<MapVerification>& outcomes) {
   return *std::max_element(outcomes.begin(), outcomes.end(),
-                           [](const ViewOutcome& a, const ViewOutcome& b) {
+                           [](const MapVerification& a, const MapVerification& b) {
                              if (a.attempt.accepted != b.attempt.accepted)
                                return b.attempt.accepted;
                              if (a.attempt.accepted) return a.overlap < b.overlap;
@@ -141,17 +142,17 @@ const ViewOutcome& bestOf(const std::vector<ViewOutcome>& outcomes) {
                            });
 }
 
-bool agree(const ViewOutcome& a, const ViewOutcome& b, const AmbiguityOptions& options) {
+bool agree(const MapVerification& a, const MapVerification& b, const AmbiguityOptions& options) {
   const Pose3 error = a.attempt.result.target_T_source.inverse() * b.attempt.result.target_T_source;
   return error.translation().norm() <= options.ambiguity_distance_m &&
          rotationAngle(error) * 180.0 / M_PI <= options.ambiguity_angle_deg;
 }
 
 /** How many of the accepted outcomes agree with one, itself included. */
-size_t agreeingWith(const ViewOutcome& one, const std::vector<ViewOutcome>& outcomes,
+size_t agreeingWith(const MapVerification& one, const std::vector<MapVerification>& outcomes,
                     const AmbiguityOptions& options) {
   return static_cast<size_t>(
-      std::count_if(outcomes.begin(), outcomes.end(), [&](const ViewOutcome& other) {
+      std::count_if(outcomes.begin(), outcomes.end(), [&](const MapVerification& other) {
         return other.attempt.accepted && agree(one, other, options);
       }));
 }
@@ -163,12 +164,12 @@ void refuse(MapRegistration& registration, const std::string& reason) {
 }
 
 /** Refuses the best outcome unless it is to be believed. */
-void judge(const ViewOutcome& best, const std::vector<ViewOutcome>& outcomes,
+void judge(const MapVerification& best, const std::vector<MapVerification>& outcomes,
            const AmbiguityOptions& options, MapRegistration& registration) {
   registration.agreeing = agreeingWith(best, outcomes, options);
   if (!best.attempt.accepted) return;
   const bool has_rival =
-      std::any_of(outcomes.begin(), outcomes.end(), [&](const ViewOutcome& outcome) {
+      std::any_of(outcomes.begin(), outcomes.end(), [&](const MapVerification& outcome) {
         return outcome.attempt.accepted && !agree(outcome, best, options) &&
                outcome.overlap >= options.ambiguity_overlap * best.overlap &&
                agreeingWith(outcome, outcomes, options) >= kLeastAgreeing;
@@ -194,14 +195,21 @@ MapRegistration registerOnMap(const PreparedScan& scan, const Vector3f& viewpoin
     refuse(registration, "nothing in the map looks like a floor with free space above it");
     return registration;
   }
-  std::vector<ViewOutcome> outcomes(places.size());
+  std::vector<MapVerification> outcomes(places.size());
   tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
     outcomes[i] = tryView(scan, viewpoint, places[i], views, computation);
   });
-  const ViewOutcome& best = bestOf(outcomes);
+  const MapVerification& best = bestOf(outcomes);
   registration.attempt = best.attempt;
   judge(best, outcomes, config.registration.ambiguity, registration);
   return registration;
+}
+
+MapVerification verifyOnMap(const PreparedScan& scan, const Vector3f& viewpoint,
+                            const Pose3& map_T_scan, const std::vector<Vector3f>& map,
+                            const SlamConfig& config) {
+  const Views views(map, rangeOf(scan, viewpoint), config);
+  return verifyAt(scan, viewpoint, map_T_scan, views, config.makeLoopClosureComputation());
 }
 
 }  // namespace lamp

@@ -22,4 +22,14 @@ struct MapRegistration {
 MapRegistration registerOnMap(const PreparedScan& scan, const Eigen::Vector3f& viewpoint,
                               const std::vector<Eigen::Vector3f>& map, const SlamConfig& config);
 
+/** What a lidar would see of the map from where a scan is said to have been taken, and the scan. */
+struct MapVerification {
+  LoopClosureAttempt attempt;  ///< in the frame of the map; its pose is refined
+  double overlap = 0;          ///< of the scan with the view
+};
+
+MapVerification verifyOnMap(const PreparedScan& scan, const Eigen::Vector3f& viewpoint,
+                            const Pose3& map_T_scan, const std::vector<Eigen::Vector3f>& map,
+                            const SlamConfig& config);
+
 }  // namespace lamp

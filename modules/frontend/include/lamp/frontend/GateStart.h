@@ -13,7 +13,7 @@ namespace lamp {
 
 /** Gives a robot's first key node the pose that the gate tells (paper II-A). Key nodes wait until
  * the robot has stood long enough, or moves; this takes no longer than `[gate] standing_s`, or
- * until the second key node.
+ * until a key node elsewhere.
  *
  * Odometry tells when the robot moves. Without any, it has to stand for the whole time: what is
  * seen of the plates is blurred else, and refused. */

@@ -1,0 +1,5 @@
+#include "lamp/slam_app/LocalizeApp.h"
+
+int main(int argc, char** argv) {
+  return lamp::localizeApp(argc, argv);
+}
