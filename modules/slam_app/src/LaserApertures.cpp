@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lamp/core/Progress.h"
 #include "lamp/input/RawlogSource.h"
 
 namespace lamp {
@@ -17,7 +18,8 @@ constexpr double kLongestS = 900;
 
 }  // namespace
 
-std::map<RobotId, ApertureSurvey::Correction> measureApertures(const SlamConfig& config) {
+std::map<RobotId, ApertureSurvey::Correction> measureApertures(
+    const SlamConfig& config, const std::atomic<bool>& interrupted) {
   std::map<RobotId, ApertureSurvey::Correction> result;
   if (config.frontend.scan.laser_aperture_deg > 0) return result;
   RobotTable robots;
@@ -25,7 +27,8 @@ std::map<RobotId, ApertureSurvey::Correction> measureApertures(const SlamConfig&
   std::map<RobotId, ApertureSurvey> surveys;
   bool any_laser = false;
   std::optional<double> begin;
-  for (size_t count = 0; any_laser || count < kFirstObservations; ++count) {
+  Progress progress;
+  for (size_t count = 0; !interrupted && (any_laser || count < kFirstObservations); ++count) {
     const auto observation = source.next();
     if (!observation) break;
     if (!begin) begin = observation->stamp;
@@ -35,6 +38,9 @@ std::map<RobotId, ApertureSurvey::Correction> measureApertures(const SlamConfig&
     const bool all = std::all_of(surveys.begin(), surveys.end(),
                                  [](const auto& survey) { return survey.second.decided(); });
     if ((all && count > kFirstObservations) || observation->stamp - *begin > kLongestS) break;
+    if (progress.due())
+      progress.show(std::max(source.progress(), (observation->stamp - *begin) / kLongestS),
+                    "first look at what the 2D lasers see");
   }
   for (const auto& [robot, survey] : surveys)
     if (const auto correction = survey.correction()) result.emplace(robot, *correction);

@@ -155,7 +155,7 @@ SlamRun::Outcome SlamRun::run() {
   BaseStation base_station(local_.makeBaseStationSetup(), timer);
   base_station.setMinLoggingLevel(getMinLoggingLevel());
 
-  FrontEndTeam team(local_, queue, measureApertures(local_));
+  FrontEndTeam team(local_, queue, measureApertures(local_, interrupted_));
   {
     Progress progress;
     const CTimeLoggerEntry timing(timer, "run");
