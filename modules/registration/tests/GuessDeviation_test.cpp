@@ -78,7 +78,7 @@ TEST_F(GuessDeviationTest, RefusesBeyondTheQuantile) {
 TEST_F(GuessDeviationTest, PositionIsNotExcusedByTheRotation) {
   // Together within the quantile of six directions; the shift alone is beyond that of three.
   const Vector6d shift = tangent(0, 0, 3.6, 0, 0, 0);
-  const Verification verification = verify(T * expSE3(shift), guess(T, std::sqrt(0.9), 0.1));
+  const Verification verification = verify(T * expSE3(shift), guess(T, std::sqrt(0.74), 0.1));
   EXPECT_LT(verification.scores[0].value, *verification.scores[0].threshold);
   EXPECT_EQ(verification.refusal, "far from the guess");
 }
