@@ -56,6 +56,7 @@ std::vector<LandmarkSighting> sightingsFromObservation(const InputObservation& o
     sighting.name = observation.label + "_" + std::to_string(seen.landmarkID);
     sighting.base_p_sensor = base_T_sensor.translation();
     sighting.base_p_landmark = base_T_sensor * (range * direction(seen.yaw, seen.pitch));
+    if (!sighting.base_p_landmark.allFinite()) continue;
     sighting.sigma_m = view->sensor_std_range;
     sighting.sigma_rad = std::max(view->sensor_std_yaw, view->sensor_std_pitch);
     if (view->validCovariances) {

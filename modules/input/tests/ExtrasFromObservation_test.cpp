@@ -83,6 +83,18 @@ TEST(ExtrasFromObservation, SightingsAreWhereMrptSaysTheyAre) {
   EXPECT_TRUE(sightingsFromObservation(input(CObservationIMU::Create(), "imu")).empty());
 }
 
+TEST(ExtrasFromObservation, ASightingBeyondAllNumbersIsNone) {
+  auto view = CObservationBearingRange::Create();
+  mrpt::math::CMatrixDouble33 damaged;
+  damaged.setDiagonal(1e308);
+  view->sensorLocationOnRobot.setRotationMatrix(damaged);
+  CObservationBearingRange::TMeasurement measured;
+  measured.landmarkID = 7;
+  measured.range = 4;
+  view->sensedData.push_back(measured);
+  EXPECT_TRUE(sightingsFromObservation(input(view, "artifact")).empty());
+}
+
 TEST(ExtrasFromObservation, DistancesOutsideTheSensorsLimitsAreNone) {
   auto ranges = CObservationBeaconRanges::Create();
   ranges->minSensorDistance = 0.5f;
