@@ -71,7 +71,7 @@ void dropPattern(const IcpNormalEquations& sum, double radius_m, const PreparedS
   matches.erase(std::remove_if(matches.begin(), matches.end(),
                                [&](const Match& match) {
                                  return holdsWeakAxis(match.normal) &&
-                                        !target.support()[match.target_point];
+                                        !target.isOnSurface(match.target_point);
                                }),
                 matches.end());
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "lamp/core/SurfaceNormals.h"
-#include "lamp/scans/SurfaceSupport.h"
 
 namespace lamp {
 
@@ -144,6 +143,7 @@ PreparedScan::PreparedScan(const Cloud& cloud, const ScanPreparationOptions& opt
   noise_m_ = medianWherePlane(planes, planes.deviations_m);
   normals_ = std::move(planes.normals);
   turnTowardsViewpoints(cloud_, normals_);
+  support_ = std::make_unique<SurfaceSupport>(cloud_, normals_, noise_m_, planar_);
   centroid_ = centroidOf(cloud_.points, own_);
   radius_m_ = rmsDistance(cloud_.points, own_, centroid_);
   seconds_ = secondsSince(begun_);
@@ -158,19 +158,11 @@ const Features& PreparedScan::features() const {
   return features_;
 }
 
-const std::vector<uint8_t>& PreparedScan::support() const {
-  std::call_once(support_made_, [this] {
-    const Clock::time_point begin = Clock::now();
-    support_ = surfaceSupport(cloud_, normals_, noise_m_, planar_);
-    seconds_ = seconds_ + secondsSince(begin);
-  });
-  return support_;
-}
-
 size_t PreparedScan::bytes() const {
   constexpr size_t kTreePerPoint = 24;  // leaves of ten points, an index each
   const auto keypoints = planar_ ? 0 : static_cast<size_t>(feature_options_.max_keypoints);
-  return size() * (2 * sizeof(Vector3f) + 2 * sizeof(uint32_t) + kTreePerPoint + 1) +
+  return size() * (2 * sizeof(Vector3f) + 2 * sizeof(uint32_t) + kTreePerPoint +
+                   SurfaceSupport::kBytesPerPoint) +
          free_space_.bytes() +
          std::min(size(), keypoints) *
              (2 * sizeof(Vector3f) + Features::kDimensions * sizeof(float));

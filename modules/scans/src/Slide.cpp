@@ -34,7 +34,7 @@ std::vector<PointAcross> pointsAcross(const PreparedScan& scan, const Eigen::Iso
   std::vector<PointAcross> points;
   for (const uint32_t i : scan.own()) {
     const float along = (T.linear() * scan.normals()[i]).dot(axis);
-    if (scan.support()[i] && std::abs(along) > kAcross)
+    if (std::abs(along) > kAcross && scan.isOnSurface(i))
       points.push_back({T * scan.points()[i], along < 0});
   }
   if (points.size() <= kMaxPoints) return points;

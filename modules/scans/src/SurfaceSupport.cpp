@@ -23,13 +23,23 @@ constexpr float kShare = 0.75f;
  * many standard deviations of noise where points lie close together. */
 constexpr float kMaxSlope = 0.35f, kDeviations = 3.0f;
 
+size_t sideOf(float right, float up) {
+  const float turns = std::atan2(up, right) / static_cast<float>(2 * M_PI) + 1.0f;
+  return static_cast<size_t>(std::lround(turns * kSides)) % kSides;
+}
+
+}  // namespace
+
 /** The rays of all points that were seen from one place. */
-class Rays {
+class SurfaceSupport::Rays {
  public:
   Rays(const Cloud& cloud, uint32_t viewpoint, double noise_m)
-      : cloud_(cloud), slack_m_(kDeviations * static_cast<float>(noise_m)), tree_(directions_) {
+      : cloud_(cloud),
+        viewpoint_(cloud.viewpoints[viewpoint]),
+        slack_m_(kDeviations * static_cast<float>(noise_m)),
+        tree_(directions_) {
     for (uint32_t i = 0; i < cloud.size(); ++i) {
-      const Vector3f ray = cloud.points[i] - cloud.viewpoints[viewpoint];
+      const Vector3f ray = cloud.points[i] - viewpoint_;
       if (cloud.viewpoint[i] != viewpoint || !(ray.norm() > 0)) continue;
       points_.push_back(i);
       directions_.push_back(ray.normalized());
@@ -37,25 +47,29 @@ class Rays {
     tree_ = KdTree(directions_);
   }
 
-  size_t size() const { return points_.size(); }
-  uint32_t point(size_t ray) const { return points_[ray]; }
+  Rays(const Rays&) = delete;  // the tree refers to the directions
+  Rays& operator=(const Rays&) = delete;
 
-  /** Whether the rays around the `ray`-th one met the plane through its end, too. */
-  bool support(size_t ray, const Vector3f& normal, bool planar) {
-    tree_.nearest(directions_[ray], kRays, nearest_);
-    const Vector3f right =
-        planar ? directions_[ray].cross(Vector3f::UnitZ()) : towardsNearest(ray).normalized();
-    const Vector3f up = right.cross(directions_[ray]);
+  /** Whether the rays around a point's ray met the plane through the point, too. */
+  bool meetPlane(uint32_t point, const Vector3f& normal, bool planar) const {
+    const Vector3f ray = cloud_.points[point] - viewpoint_;
+    if (!(ray.norm() > 0)) return false;
+    const Vector3f direction = ray.normalized();
+    thread_local std::vector<uint32_t> nearest;
+    tree_.nearest(direction, kRays, nearest);
+    const Vector3f right = planar ? direction.cross(Vector3f::UnitZ())
+                                  : towardsNearest(point, direction, nearest).normalized();
+    const Vector3f up = right.cross(direction);
     std::array<bool, kSides> seen{};
     size_t sides = 0, met = 0;
-    for (const uint32_t other : nearest_) {
-      if (other == ray) continue;
-      const Vector3f apart = directions_[other] - directions_[ray];
+    for (const uint32_t other : nearest) {
+      if (points_[other] == point) continue;
+      const Vector3f apart = directions_[other] - direction;
       const size_t side = planar ? apart.dot(right) > 0 : sideOf(apart.dot(right), apart.dot(up));
       if (seen[side]) continue;
       seen[side] = true;
       ++sides;
-      met += isOnPlane(points_[ray], points_[other], normal);
+      met += isOnPlane(point, points_[other], normal);
     }
     return sides >= (planar ? kMinSidesPlanar : kMinSides) &&
            static_cast<float>(met) >= kShare * static_cast<float>(sides);
@@ -63,19 +77,14 @@ class Rays {
 
  private:
   /** Across the ray, to the nearest other one: along a ring, so that two sides are the ring's. */
-  Vector3f towardsNearest(size_t ray) const {
-    const Vector3f& direction = directions_[ray];
-    for (const uint32_t other : nearest_) {
-      if (other == ray) continue;
+  Vector3f towardsNearest(uint32_t point, const Vector3f& direction,
+                          const std::vector<uint32_t>& nearest) const {
+    for (const uint32_t other : nearest) {
+      if (points_[other] == point) continue;
       const Vector3f across = directions_[other] - directions_[other].dot(direction) * direction;
       if (across.squaredNorm() > 0) return across;
     }
     return direction.unitOrthogonal();
-  }
-
-  static size_t sideOf(float right, float up) {
-    const float turns = std::atan2(up, right) / static_cast<float>(2 * M_PI) + 1.0f;
-    return static_cast<size_t>(std::lround(turns * kSides)) % kSides;
   }
 
   bool isOnPlane(uint32_t point, uint32_t other, const Vector3f& normal) const {
@@ -84,27 +93,37 @@ class Rays {
   }
 
   const Cloud& cloud_;
+  const Vector3f viewpoint_;
   const float slack_m_;
   std::vector<uint32_t> points_;
   std::vector<Vector3f> directions_;
   KdTree tree_;
-  std::vector<uint32_t> nearest_;
 };
 
-}  // namespace
+SurfaceSupport::SurfaceSupport(const Cloud& cloud, const std::vector<Vector3f>& normals,
+                               double noise_m, bool planar)
+    : cloud_(cloud),
+      normals_(normals),
+      noise_m_(noise_m),
+      planar_(planar),
+      answers_(cloud.size()) {}
 
-std::vector<uint8_t> surfaceSupport(const Cloud& cloud, const std::vector<Vector3f>& normals,
-                                    double noise_m, bool planar) {
-  std::vector<uint8_t> support(cloud.size(), 0);
-  for (uint32_t viewpoint = 0; viewpoint < cloud.viewpoints.size(); ++viewpoint) {
-    Rays rays(cloud, viewpoint, noise_m);
-    for (size_t ray = 0; ray < rays.size(); ++ray) {
-      const uint32_t point = rays.point(ray);
-      if (!normals[point].isZero())
-        support[point] = rays.support(ray, normals[point], planar) ? 1 : 0;
-    }
-  }
-  return support;
+SurfaceSupport::~SurfaceSupport() = default;
+
+bool SurfaceSupport::at(size_t point) const {
+  std::atomic<Answer>& answer = answers_[point];
+  if (answer == Answer::kNotAsked)
+    answer = computed(static_cast<uint32_t>(point)) ? Answer::kYes : Answer::kNo;
+  return answer == Answer::kYes;
+}
+
+bool SurfaceSupport::computed(uint32_t point) const {
+  if (normals_[point].isZero()) return false;
+  std::call_once(rays_made_, [this] {
+    for (uint32_t viewpoint = 0; viewpoint < cloud_.viewpoints.size(); ++viewpoint)
+      rays_.push_back(std::make_unique<Rays>(cloud_, viewpoint, noise_m_));
+  });
+  return rays_[cloud_.viewpoint[point]]->meetPlane(point, normals_[point], planar_);
 }
 
 }  // namespace lamp

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <thread>
+#include <vector>
+
 #include "TestCorridors.h"
 #include "TestRooms.h"
 #include "lamp/scans/PreparedScan.h"
@@ -13,7 +18,7 @@ using Eigen::Vector3f;
 
 double shareSupported(const PreparedScan& scan) {
   double sum = 0;
-  for (const uint8_t supported : scan.support()) sum += supported;
+  for (size_t i = 0; i < scan.size(); ++i) sum += scan.isOnSurface(i);
   return sum / static_cast<double>(scan.size());
 }
 
@@ -21,7 +26,7 @@ double shareSupported(const PreparedScan& scan) {
 double alongX(const PreparedScan& scan, bool supported_only) {
   double sum = 0, count = 0;
   for (size_t i = 0; i < scan.size(); ++i) {
-    if (supported_only && !scan.support()[i]) continue;
+    if (supported_only && !scan.isOnSurface(i)) continue;
     sum += scan.normals()[i].x() * scan.normals()[i].x();
     ++count;
   }
@@ -31,6 +36,17 @@ double alongX(const PreparedScan& scan, bool supported_only) {
 TEST(SurfaceSupport, WallsHaveItWhateverTheirDirection) {
   EXPECT_GT(shareSupported(*prepareScan(roomPoints(3000, 0.01f, 1), 10, false)), 0.7);
   EXPECT_GT(shareSupported(*prepareScan(planarRoomPoints(700, 0.01f, 1), 6, true)), 0.7);
+}
+
+TEST(SurfaceSupport, IsTheSameHoweverTheLidarIsMounted) {
+  const auto points = roomPoints(3000, 0.01f, 1);
+  const double upright = shareSupported(*prepareScan(points, 10, false));
+  for (const double pitch_deg : {45.0, 90.0, 180.0}) {
+    const Eigen::AngleAxisf turn(static_cast<float>(pitch_deg * M_PI / 180), Vector3f::UnitY());
+    std::vector<Vector3f> tilted;
+    for (const Vector3f& point : points) tilted.push_back(turn * point);
+    EXPECT_NEAR(shareSupported(*prepareScan(tilted, 10, false)), upright, 0.01) << pitch_deg;
+  }
 }
 
 TEST(SurfaceSupport, ANoisyLaserLosesNone) {
@@ -55,7 +71,7 @@ TEST(SurfaceSupport, AWallAtTheEndHasIt) {
     const Vector3f& p = scan->points()[i];
     if (p.x() < 14.9f || std::abs(p.y()) > 1.5f || p.z() > 1.5f || p.z() < -0.5f) continue;
     ++wall;
-    supported += scan->support()[i];
+    supported += scan->isOnSurface(i);
   }
   ASSERT_GT(wall, 20);
   EXPECT_GT(supported, 0.9 * wall);
@@ -75,9 +91,23 @@ TEST(SurfaceSupport, ASingleRingHasNone) {
 }
 
 TEST(SurfaceSupport, OfNothingIsNothing) {
-  EXPECT_TRUE(prepareScan({}, 10, false)->support().empty());
-  EXPECT_EQ(prepareScan({{1, 2, 3}}, 10, false)->support(), std::vector<uint8_t>{0});
-  EXPECT_EQ(prepareScan({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, 10, false)->support().size(), 3u);
+  EXPECT_FALSE(prepareScan({{1, 2, 3}}, 10, false)->isOnSurface(0));
+  const auto in_the_lidar = prepareScan({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, 10, false);
+  for (size_t i = 0; i < 3; ++i) EXPECT_FALSE(in_the_lidar->isOnSurface(i));
+}
+
+TEST(SurfaceSupport, IsTheSameInWhateverOrderManyThreadsAskForIt) {
+  const auto points = roomPoints(3000, 0.01f, 1);
+  const auto one = prepareScan(points, 10, false), many = prepareScan(points, 10, false);
+  std::vector<std::thread> threads;
+  for (size_t t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (size_t k = 0; k < many->size(); ++k) many->isOnSurface((7 * k + 500 * t) % many->size());
+    });
+  for (std::thread& thread : threads) thread.join();
+  size_t different = 0;
+  for (size_t i = 0; i < one->size(); ++i) different += one->isOnSurface(i) != many->isOnSurface(i);
+  EXPECT_EQ(different, 0u);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace lamp {
 
 /** What two scans say of their relative pose: the surfaces that both have seen. Points whose normal
  * comes from the pattern of the scan rather than from a surface hold nothing (see
- * surfaceSupport()), and neither does where the rays end. */
+ * SurfaceSupport), and neither does where the rays end. */
 struct MatchedSurface {
   /** The A of the paper's observability analysis: sum of Hᵀ H over the matched points on surfaces
    * with their weights, H the derivative of the point-to-plane distance (metres) by a motion about

@@ -11,6 +11,7 @@
 #include "lamp/scans/Cloud.h"
 #include "lamp/scans/Features.h"
 #include "lamp/scans/FreeSpace.h"
+#include "lamp/scans/SurfaceSupport.h"
 
 namespace lamp {
 
@@ -58,17 +59,16 @@ class PreparedScan {
   /** How far its points lie off their surface, median of the standard deviations around each,
    * metres: the lidar's noise, and the surface's roughness. */
   double noise() const { return noise_m_; }
-  /** For each point, 1 if its normal is a surface's, see surfaceSupport(). Computed when first
-   * asked for. */
-  const std::vector<uint8_t>& support() const;
+  /** Whether a point's normal is a surface's, see SurfaceSupport. */
+  bool isOnSurface(size_t i) const { return support_->at(i); }
   /** Computed when first asked for: not every aligner needs them. */
   const Features& features() const;
   /** How much farther apart its points lie than those of the scans that lengths among the options
    * of registration were chosen for; 1 for denser scans. Such lengths grow with it. */
   double coarseness() const { return coarseness_; }
-  /** Memory, with features, whether they have been asked for or not. */
+  /** Memory, with all that is computed when it is asked for. */
   size_t bytes() const;
-  /** Time spent on all of it so far. */
+  /** Time spent on all of it so far, but for isOnSurface(). */
   double secondsOfPreparation() const { return seconds_; }
 
  private:
@@ -83,8 +83,7 @@ class PreparedScan {
   const double coarseness_;
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
   double radius_m_ = 0, noise_m_ = 0;
-  mutable std::once_flag support_made_;
-  mutable std::vector<uint8_t> support_;
+  std::unique_ptr<const SurfaceSupport> support_;
   mutable std::once_flag features_made_;
   mutable Features features_;
   mutable std::atomic<double> seconds_{0};
