@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "lamp/core/Geometry.h"
 #include "lamp/scans/Icp.h"
 
@@ -12,10 +15,13 @@ struct IcpNormalEquations {
   double weights = 0;             ///< what the kernel leaves of the matches
   double squares = 0;             ///< weighted squared distances to the planes, metres²
   size_t matches = 0;
+
+  /** Of the weighted distances to the planes, metres. */
+  double rms() const { return std::sqrt(squares / std::max(weights, 1e-12)); }
 };
 
-/** Gauss-Newton step; in the plane only x, y and yaw move. Slight damping leaves directions that the
- * scans do not observe where they are. */
+/** Gauss-Newton step; in the plane only x, y and yaw move. Slight damping leaves directions that
+ * the scans do not observe where they are. */
 Vector6d solveStep(const IcpNormalEquations& equations, bool planar);
 
 /** Moves the pose by a step about the pivot, in the target's axes. */

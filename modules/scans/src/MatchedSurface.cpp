@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <tuple>
 #include <vector>
 
 #include "IcpLinearization.h"
+#include "PatchCount.h"
 #include "lamp/scans/Observability.h"
 
 namespace lamp {
@@ -76,14 +75,6 @@ void dropPattern(const IcpNormalEquations& sum, double radius_m, const PreparedS
                 matches.end());
 }
 
-double patchesOf(const std::vector<Match>& matches) {
-  std::set<std::tuple<long, long, long>> cells;
-  for (const Match& match : matches)
-    cells.emplace(std::lround(match.source.x()), std::lround(match.source.y()),
-                  std::lround(match.source.z()));
-  return static_cast<double>(cells.size());
-}
-
 }  // namespace
 
 MatchedSurface matchedSurface(const PreparedScan& source, const PreparedScan& target,
@@ -98,12 +89,14 @@ MatchedSurface matchedSurface(const PreparedScan& source, const PreparedScan& ta
   };
   // By both normals edges keep their weight, and with it what they tell of the misfit.
   const IcpNormalEquations all = sumOfAll(IcpMetric::kPlaneToPlane);
-  surface.residual_m = std::sqrt(all.squares / std::max(all.weights, 1e-12));
+  surface.residual_m = all.rms();
   dropPattern(sumOfAll(IcpMetric::kPointToPlane), surface.radius_m, target, matches);
   const IcpNormalEquations sum = sumOfAll(IcpMetric::kPointToPlane);
   surface.information = sum.H;
   surface.weights = sum.weights;
-  surface.patches = patchesOf(matches);
+  PatchCount patches;
+  for (const Match& match : matches) patches.add(match.source.cast<float>());
+  surface.patches = patches.count();
   return surface;
 }
 

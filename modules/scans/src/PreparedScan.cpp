@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Extent.h"
 #include "lamp/core/SurfaceNormals.h"
 
 namespace lamp {
@@ -102,20 +103,6 @@ FittedPlanes fitWideEnough(const std::vector<Vector3f>& points, const KdTree& tr
   return planes;
 }
 
-Eigen::Vector3d centroidOf(const std::vector<Vector3f>& points,
-                           const std::vector<uint32_t>& places) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const uint32_t i : places) sum += points[i].cast<double>();
-  return sum / std::max<double>(1.0, static_cast<double>(places.size()));
-}
-
-double rmsDistance(const std::vector<Vector3f>& points, const std::vector<uint32_t>& places,
-                   const Eigen::Vector3d& center) {
-  double sum = 0;
-  for (const uint32_t i : places) sum += (points[i].cast<double>() - center).squaredNorm();
-  return std::sqrt(sum / std::max<double>(1.0, static_cast<double>(places.size())));
-}
-
 double coarsenessOf(const Cloud& cloud, const KdTree& tree) {
   constexpr double kUsualSpacing_m = 0.4;
   return std::max(1.0, spacing(cloud, tree) / kUsualSpacing_m);
@@ -144,8 +131,11 @@ PreparedScan::PreparedScan(const Cloud& cloud, const ScanPreparationOptions& opt
   normals_ = std::move(planes.normals);
   turnTowardsViewpoints(cloud_, normals_);
   support_ = std::make_unique<SurfaceSupport>(cloud_, normals_, noise_m_, planar_);
-  centroid_ = centroidOf(cloud_.points, own_);
-  radius_m_ = rmsDistance(cloud_.points, own_, centroid_);
+  std::vector<Vector3f> own_points;
+  for (const uint32_t i : own_) own_points.push_back(cloud_.points[i]);
+  const Extent extent = extentOf(own_points);
+  centroid_ = extent.centroid;
+  radius_m_ = extent.radius_m;
   seconds_ = secondsSince(begun_);
 }
 

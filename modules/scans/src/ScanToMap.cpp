@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <tuple>
 
+#include "Extent.h"
 #include "IcpLinearization.h"
+#include "PatchCount.h"
 
 namespace lamp {
 
@@ -67,33 +67,12 @@ IcpNormalEquations sumOf(const std::vector<Match>& matches, const Vector3d& pivo
   return sum.result();
 }
 
-Vector3d centroidOf(const std::vector<Vector3f>& points) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3f& point : points) sum += point.cast<double>();
-  return sum / static_cast<double>(points.size());
-}
-
-double rmsDistance(const std::vector<Vector3f>& points, const Vector3d& center) {
-  double sum = 0;
-  for (const Vector3f& point : points) sum += (point.cast<double>() - center).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(points.size()));
-}
-
 /** Motions that hardly any point stands in the way of would follow the noise, and never end. */
 IcpNormalEquations damped(IcpNormalEquations sum, double radius_m) {
   constexpr double kShare = 0.001;
   sum.H.diagonal().head<3>().array() += kShare * sum.weights;
   sum.H.diagonal().tail<3>().array() += 0.2 * kShare * sum.weights * radius_m * radius_m;
   return sum;
-}
-
-/** Pieces of surface about a metre wide. */
-double patchesOf(const std::vector<Match>& matches) {
-  std::set<std::tuple<long, long, long>> cells;
-  for (const Match& match : matches)
-    cells.emplace(std::lround(match.point.x()), std::lround(match.point.y()),
-                  std::lround(match.point.z()));
-  return static_cast<double>(cells.size());
 }
 
 }  // namespace
@@ -103,8 +82,7 @@ ScanToMapResult registerToMap(const std::vector<Vector3f>& points, LocalMap& map
   ScanToMapResult result;
   result.map_T_scan = predicted;
   if (points.size() < kFewestMatches) return result;
-  const Vector3d centroid = centroidOf(points);
-  const double radius = rmsDistance(points, centroid);
+  const auto [centroid, radius] = extentOf(points);
   const double final_distance =
       std::max(kFinalLeaves * map.leaf(), kFinalDeviations * map.deviation());
   double distance = std::max(final_distance, max_error_m);
@@ -131,9 +109,9 @@ ScanToMapResult registerToMap(const std::vector<Vector3f>& points, LocalMap& map
       result.converged = size < kCoarseTolerance;
       result.matched_share =
           static_cast<double>(matches.size() * stride) / static_cast<double>(points.size());
-      result.surface = {sum.H,       pivot,
-                        sum.weights, patchesOf(matches),
-                        radius,      std::sqrt(sum.squares / std::max(sum.weights, 1e-12))};
+      PatchCount patches;
+      for (const Match& match : matches) patches.add(match.point);
+      result.surface = {sum.H, pivot, sum.weights, patches.count(), radius, sum.rms()};
       return result;
     }
   }
