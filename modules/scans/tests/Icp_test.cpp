@@ -43,6 +43,25 @@ TEST_P(IcpMetrics, FindsAKnownMotionBetweenIndependentSamples) {
   EXPECT_LT(error.tail<3>().norm(), 0.3 * kDegree);
 }
 
+TEST_P(IcpMetrics, ScansOfALidarMountedUpsideDownOrTiltedRegisterAsWell) {
+  const Pose3 target_T_source = expSE3(tangent(0.4, -0.3, 0.2, 0.05, -0.04, 0.15));
+  const auto target_points = roomPoints(4000, 0.01f, 1);
+  const auto source_points = moved(roomPoints(3000, 0.01f, 2), target_T_source.inverse());
+  for (const Vector6d& mounting :
+       {tangent(0, 0, 0.5, M_PI, 0, 0), tangent(0, 0, 0.5, 0, 45 * kDegree, 0),
+        tangent(0, 0, 0.5, 0, 90 * kDegree, 0)}) {
+    const Pose3 base_T_lidar = expSE3(mounting), lidar_T_base = base_T_lidar.inverse();
+    const auto target = prepareScan(moved(target_points, lidar_T_base), 10, false);
+    const auto source = prepareScan(moved(source_points, lidar_T_base), 10, false);
+    const IcpResult result = icp(*source, *target, Pose3::Identity(), GetParam(), IcpOptions{});
+    ASSERT_TRUE(result.converged);
+    const Vector6d error =
+        errorOf(target_T_source, base_T_lidar * result.target_T_source * lidar_T_base);
+    EXPECT_LT(error.head<3>().norm(), 0.02) << mounting.transpose();
+    EXPECT_LT(error.tail<3>().norm(), 0.3 * kDegree) << mounting.transpose();
+  }
+}
+
 TEST_P(IcpMetrics, BothDirectionsAgree) {
   const Pose3 target_T_source = expSE3(tangent(0.3, 0.2, 0.1, 0.02, 0.03, -0.1));
   const auto a = prepareScan(roomPoints(4000, 0.01f, 1), 10, false);
