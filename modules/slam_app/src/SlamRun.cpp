@@ -13,10 +13,10 @@
 #include "FrontEndTeam.h"
 #include "LaserApertures.h"
 #include "RunDescription.h"
+#include "RunWarnings.h"
 #include "TeamArrivals.h"
 #include "WorldFrame.h"
 #include "lamp/base_station/BaseStation.h"
-#include "lamp/base_station/LoopCounts.h"
 #include "lamp/core/Progress.h"
 #include "lamp/input/RawlogSource.h"
 #include "lamp/slam_app/RunWriter.h"
@@ -104,16 +104,6 @@ std::string explainEmptyRun(const std::vector<FrontEndReport>& reports, const Ro
   return text;
 }
 
-/** A back end that hardly believes any loop closure has got wrong ones, or wrong odometry. */
-std::vector<std::string> warningsOf(const BaseStation& base) {
-  const KeptLoops loops = keptLoops(base.graph(), base.lastReport().frames);
-  if (base.optimizations() == 0 || !loops.tooFew()) return {};
-  return {"the back end kept only " + std::to_string(loops.kept) + " of " +
-          std::to_string(loops.loops) +
-          " verified loop closures: the map is hardly better than odometry. Most loop closures are "
-          "wrong, or odometry is much worse than its covariances state (docs/pose_graph.md)"};
-}
-
 }  // namespace
 
 SlamRun::SlamRun(SlamConfig config, Job job, const std::atomic<bool>& interrupted)
@@ -188,7 +178,7 @@ SlamRun::Outcome SlamRun::run() {
     throw std::runtime_error("interrupted before the first key node: there is nothing to map");
   if (base_station.graph().nodes().empty())
     throw std::runtime_error(explainEmptyRun(result.reports, robots, result.warnings));
-  for (std::string& warning : warningsOf(base_station))
+  for (std::string& warning : runWarnings(base_station))
     result.warnings.push_back(std::move(warning));
   warn(result.warnings);
   for (const FrontEndReport& report : result.reports)
