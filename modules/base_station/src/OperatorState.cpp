@@ -8,8 +8,8 @@ namespace {
 
 const char* const kDone = "done";
 
-/** The key node of a name. \throws std::runtime_error if there is none: the same whether its robot
- * has been read already or not, since reading runs ahead by chance. */
+/** The key node with this name. \throws std::runtime_error if there is none, with the same message
+ * whether its robot is known yet or not: how far reading has run ahead is a matter of chance. */
 KeyNodeId keyNode(const std::string& name, const RobotTable& robots, const PoseGraph& graph) {
   try {
     const KeyNodeId id = robots.parse(name);

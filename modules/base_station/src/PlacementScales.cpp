@@ -24,12 +24,12 @@ double degrees(const Pose3& motion) {
   return rotationAngle(motion) * 180.0 / M_PI;
 }
 
-/** Whether a pair's two maps may have drifted so far apart. */
+/** Whether drift of the two maps explains the motion. */
 bool isDrift(const Pose3& motion) {
   return motion.translation().norm() < kDrift_m && degrees(motion) < kDrift_deg;
 }
 
-/** At most so many, at even steps. */
+/** At most `most` of them, evenly spaced. */
 template <class T>
 std::vector<T> thinned(const std::vector<T>& all, size_t most) {
   if (all.size() <= most) return all;

@@ -9,15 +9,15 @@ namespace lamp {
 
 namespace {
 
-/** Placements that bring less of the two maps together than this share of the most are none: some
- * stretch of wall fits some other one everywhere. */
+/** Placements that bring less than this share of what the best one does together do not count:
+ * some stretch of wall fits another one everywhere. */
 constexpr double kLeastShare = 0.5;
 /** One patch more may be noise, or somebody passing. */
 constexpr double kNoisePatches = 1.0;
-/** Contradictions come from noise, edges and what moves, too. */
+/** Noise, edges and moving objects contradict, too. */
 constexpr double kExcess = 2.0;
-/** So many pairs more must contradict a placement than chance explains, and so many standard
- * deviations more than that. */
+/** A placement is refuted if this many more pairs contradict it than chance explains, plus this
+ * many standard deviations. */
 constexpr double kFewestPairs = 4.0, kDeviations = 2.0;
 /** Patches are distinctive if they contradict so many of the refuted placements; fewer of them tell
  * nothing. */

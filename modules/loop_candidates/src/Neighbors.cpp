@@ -6,7 +6,8 @@ namespace lamp {
 
 void NeighborsOptions::visit(OptionVisitor& v) {
   v("max_index_gap", max_index_gap, "key nodes",
-    "a key node is registered with so many before it; 0 leaves the motion between them to odometry",
+    "number of key nodes before it that each key node is registered with; 0 leaves the motion "
+    "between them to odometry",
     kNotNegative);
 }
 

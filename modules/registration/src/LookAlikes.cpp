@@ -19,12 +19,12 @@ using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 
-/** A registration is pulled in from at least half as far. */
+/** Registrations converge from at least half this far away. */
 constexpr double kStep_m = 1.5;
 /** Starts with more of the points where the other scan's rays passed lead nowhere: across a
  * corridor, one of its walls does. */
 constexpr double kMostInFreeSpace = 0.25, kMargin_m = 0.3;
-/** Of the positions that the guess allows, so many are searched. */
+/** The share of the positions that the guess allows which is searched. */
 constexpr double kProbability = 0.99;
 
 /** Horizontal covariance of the guess's position in the target's frame. */
@@ -80,12 +80,12 @@ std::vector<Vector2d> shiftsWithin(const Matrix2d& allowed, const Vector2d& from
 
 void LookAlikeOptions::visit(OptionVisitor& v) {
   v("look_alike_starts", look_alike_starts, "",
-    "maximum number of places tried beside a registration that is verified, where the guess allows "
+    "maximum number of places tried around a verified registration, where the guess allows "
     "others; 0 tries none",
     {0, 100});
   v("look_alike_sigmas", look_alike_sigmas, "",
-    "look-alikes are sought as if the guess's standard deviations were so many times larger, since "
-    "odometry is often worse than it says",
+    "look-alikes are sought as if the guess's standard deviations were this many times larger, "
+    "since odometry is often worse than it claims",
     kPositive);
 }
 

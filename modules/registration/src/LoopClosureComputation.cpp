@@ -30,8 +30,7 @@ LoopClosureComputation::LoopClosureComputation(
       ambiguity_(ambiguity) {}
 
 LoopClosureAttempt LoopClosureComputation::compute(const PreparedScan& source,
-                                                   const PreparedScan& target,
-                                                   const Guess& guess,
+                                                   const PreparedScan& target, const Guess& guess,
                                                    bool certain_guess) const {
   Followed best;
   std::vector<AlignerOutcome> alignments;
@@ -85,7 +84,7 @@ LoopClosureComputation::Followed LoopClosureComputation::refineAndVerify(
   if (!attempt.result.converged)
     attempt.reason = "did not converge";
   else if (attempt.result.information.isZero())
-    attempt.reason = "no surface in common that holds the pose";
+    attempt.reason = "no common surface that constrains the pose";
   if (!attempt.reason.empty()) return followed;
   for (const auto& verifier : verifiers_) {
     ++followed.steps;

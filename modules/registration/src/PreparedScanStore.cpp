@@ -65,7 +65,7 @@ PreparedScanPtr PreparedScanStore::get(const Key& key) {
   return entry->prepared;
 }
 
-/** The entry of the key, now the one used last; an empty one if there is none up to date. */
+/** The entry of the key, marked as used last; a new one if there is none that is up to date. */
 PreparedScanStore::EntryPtr PreparedScanStore::find(const Key& key) {
   const size_t scans = members(key).size();
   const std::lock_guard lock(mutex_);

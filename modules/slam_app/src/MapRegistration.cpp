@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/** So near to one another that several views show what a scan saw. */
+/** Close enough together for several views to show what a scan saw. */
 constexpr float kSpacing_m = 3;
 /** Large maps are looked at from places that lie farther apart. */
 constexpr size_t kMaxViews = 500;
@@ -175,7 +175,7 @@ void judge(const MapVerification& best, const std::vector<MapVerification>& outc
                agreeingWith(outcome, outcomes, options) >= kLeastAgreeing;
       });
   if (has_rival)
-    refuse(registration, "they lead to different places, which look alike");
+    refuse(registration, "they lead to different places that look alike");
   else if (registration.agreeing < kLeastAgreeing)
     refuse(registration, "too few of them lead to the same pose");
   else if (best.overlap < kLeastOverlap)

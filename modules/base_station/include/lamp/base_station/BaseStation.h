@@ -48,11 +48,12 @@ class BaseStation : public mrpt::system::COutputLogger {
  public:
   BaseStation(BaseStationSetup setup, mrpt::system::CTimeLogger& timer);
 
-  /** \param interrupted may become true at any time; registrations that have not begun are then
-   * left out. */
+  /** \param interrupted may become true at any time; registrations that have not begun are
+   * then skipped. */
   void receive(const KeyNodePacket& packet, const std::atomic<bool>& interrupted = kNever);
   void receive(const RobotEnd& end);
-  /** Does what an operator asked for, and optimises. \return `done`, or why it cannot be done. */
+  /** Carries out what an operator asked for, and optimises. \return `done`, or why it cannot be
+   * done. */
   std::string apply(const OperatorAction& action, const RobotTable& robots);
   /** Computes what still waits, until `interrupted`, and optimises a last time. */
   void finish(const std::atomic<bool>& interrupted);

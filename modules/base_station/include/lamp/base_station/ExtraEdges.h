@@ -9,8 +9,8 @@
 
 namespace lamp {
 
-/** Turns what robots measure beside odometry and lidar into edges: gravity, landmarks, distances to
- * beacons and to each other. */
+/** Turns what robots measure besides odometry and lidar into edges: gravity, landmarks, distances
+ * to beacons and to each other. */
 class ExtraEdges {
  public:
   /** \param robots in the order of their ids. */
@@ -22,7 +22,7 @@ class ExtraEdges {
            const std::map<KeyNodeId, KeyNodePacket>& packets, PoseGraph& graph);
 
  private:
-  /** A distance to a robot whose key node after it has not come yet. */
+  /** A distance to a robot whose next key node has not arrived yet. */
   struct OpenRange {
     KeyNodeId from;
     RangeReading reading;

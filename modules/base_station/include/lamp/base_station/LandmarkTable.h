@@ -5,7 +5,7 @@
 
 namespace lamp {
 
-/** artifacts.csv: where the landmarks are, how sure that is, and how many edges say so. */
+/** artifacts.csv: where the landmarks are, how certain that is, and how many edges measure it. */
 CsvTable landmarkTable(const PoseGraph& graph, const RobotTable& robots);
 
 }  // namespace lamp

@@ -23,7 +23,7 @@ struct LedgerRow {
   std::optional<EdgeIndex> edge;  ///< in the pose graph, if it was accepted
 };
 
-/** A change of the back end's mind about one loop closure. */
+/** A change of the back end's verdict on one loop closure. */
 struct VerdictChange {
   size_t round = 0;
   size_t loop_id = 0;
@@ -38,7 +38,7 @@ class Ledger {
  public:
   /** Adds an attempt; loop_id and attempt are filled in. */
   void add(LedgerRow row);
-  /** Of edges that no attempt has made nothing is kept. */
+  /** Edges that come from no attempt are ignored. */
   void addVerdictChange(EdgeIndex edge, size_t round, Verdict before, const Edge& after);
 
   const std::vector<LedgerRow>& rows() const { return rows_; }

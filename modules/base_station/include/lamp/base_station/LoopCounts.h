@@ -4,9 +4,9 @@
 
 namespace lamp {
 
-/** How many loop closures came how far. */
+/** How many loop closures got through each stage. */
 struct LoopCounts {
-  size_t candidates = 0;  ///< proposed by the generators, with proposals made again
+  size_t candidates = 0;  ///< proposed by the generators, repeated proposals included
   size_t attempts = 0;    ///< computed
   size_t verified = 0;    ///< accepted by all verifiers
   size_t inliers = 0;     ///< kept by the back end
@@ -25,12 +25,12 @@ LoopCounts countLoops(const BaseStation& base_station);
 struct KeptLoops {
   size_t loops = 0, kept = 0;
 
-  /** Less than a tenth, of so many that a tenth is at least one. */
+  /** Less than a tenth was kept, of ten or more. */
   bool tooFew() const { return loops >= 10 && 10 * kept < loops; }
 };
 KeptLoops keptLoops(const PoseGraph& graph, const std::vector<FrameAgreement>& frames);
 
-/** Edges beside odometry, priors and loop closures. */
+/** Edges other than odometry, priors and loop closures. */
 struct MeasurementCounts {
   size_t edges = 0, inliers = 0;
 };

@@ -13,18 +13,18 @@ enum class ActionKind {
   kRemove,    ///< a loop closure leaves the graph; its pair may be tried again
   kVeto,      ///< a loop closure leaves the graph, and its pair is not tried again
   kPin,       ///< a loop closure that no outlier rejection may reject
-  kRestore,   ///< takes remove, veto and pin back
+  kRestore,   ///< undoes remove, veto and pin
   kAdd,       ///< a loop closure by hand, pinned
   kIgnore,    ///< a robot's loop closures with the others stay out
-  kRevive,    ///< takes ignore back
-  kFreeze,    ///< no optimisation any more
-  kUnfreeze,  ///< takes freeze back
-  kReset,     ///< takes all actions so far back
+  kRevive,    ///< undoes ignore
+  kFreeze,    ///< no optimisation from now on
+  kUnfreeze,  ///< undoes freeze
+  kReset,     ///< undoes all actions so far
 };
 
 /** What an operator did to the map, and when. */
 struct OperatorAction {
-  size_t key_nodes = 0;  ///< done when the base station had so many
+  size_t key_nodes = 0;  ///< how many the base station had then
   ActionKind kind = ActionKind::kReset;
   std::optional<size_t> loop_id;  ///< of loops.csv; or the pair
   std::string from, to;           ///< `robot:index`

@@ -14,14 +14,14 @@ namespace lamp {
 /** What the operator's actions have done so far to the graph and to what happens to it. */
 class OperatorState {
  public:
-  /** Does an action on graph and ledger. \return `done`, or why it cannot be done. */
+  /** Applies an action to graph and ledger. \return `done`, or why it cannot be done. */
   std::string apply(const OperatorAction& action, size_t round, const RobotTable& robots,
                     PoseGraph& graph, Ledger& ledger);
 
   bool frozen() const { return frozen_; }
-  /** One flag for each edge: not those of loops removed, vetoed, or of robots ignored. */
+  /** One flag per edge: false for loops removed or vetoed, and for those of ignored robots. */
   std::vector<bool> admitted(const PoseGraph& graph) const;
-  /** Whether a loop closure between the two may be searched. */
+  /** Whether a loop closure between the two may be searched for. */
   bool maySearch(KeyNodeId from, KeyNodeId to) const;
   bool removed(EdgeIndex edge) const { return removed_.count(edge) != 0; }
 

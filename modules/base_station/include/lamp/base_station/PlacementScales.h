@@ -29,9 +29,9 @@ struct ComparedPair {
 struct Placement {
   Pose3 a_T_b = Pose3::Identity();
   std::vector<ComparedPair> pairs;
-  double near = 0;  ///< pairs that lie so near that they could be compared
+  double near = 0;  ///< pairs near enough to be compared
 
-  /** Patches that agree, of all near pairs. */
+  /** Agreeing patches, as if all near pairs had been compared. */
   double agreeing() const;
 };
 

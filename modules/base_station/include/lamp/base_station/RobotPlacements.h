@@ -35,12 +35,12 @@ class RobotPlacements {
   std::vector<PlacedLoop> takeLoops() { return std::exchange(loops_, {}); }
   /** Adds what was found to the frames of the last optimisation. */
   void describe(std::vector<FrameAgreement>& frames) const;
-  /** From now on answers hold for what the robots have seen, no more. \return whether one is out of
-   * date by that. */
+  /** From now on answers expire as soon as the robots have seen more. \return whether one has
+   * expired. */
   bool askForLastAnswers(const PoseGraph& graph);
 
  private:
-  /** Answers hold until both robots together have so many times more key nodes. */
+  /** Answers hold until both robots together have this many times as many key nodes. */
   static constexpr double kGrowth = 1.5;
   using Robots = std::pair<RobotId, RobotId>;
   /** Placements are those of b's first key node in the frame of a's. */

@@ -17,11 +17,11 @@ class RobotTracks {
   /** Key nodes with their scans, in KeyNodeId order. */
   const std::map<KeyNodeId, KeyNodePacket>& packets() const { return packets_; }
 
-  /** Optimised trajectory of a robot, one pose a lidar scan: scans between key nodes follow
+  /** Optimised trajectory of a robot, one pose per lidar scan: scans between key nodes follow
    * odometry, with the correction blended between their neighbours.
    * \param graph that holds the key nodes. */
   std::vector<StampedPose> trajectory(const PoseGraph& graph, RobotId robot) const;
-  /** Dead reckoning from the robot's start pose, one pose a lidar scan. */
+  /** Dead reckoning from the robot's start pose, one pose per lidar scan. */
   std::vector<StampedPose> odometryTrajectory(RobotId robot) const;
 
  private:

@@ -19,7 +19,7 @@ struct Hypothesis {
   std::optional<double> accuracy_m;
 };
 
-/** Hypotheses, best first; none with the reason why. */
+/** Hypotheses, best first; if there are none, the reason why. */
 struct AlignmentResult {
   std::vector<Hypothesis> hypotheses;
   std::string refusal;

@@ -5,7 +5,7 @@
 namespace lamp {
 
 /** The part of a motion, in a pose's tangent space, in the directions of which an information
- * matrix knows something. Of two results that slide along a tunnel against each other, nothing is
+ * matrix knows something. If two results only differ by a slide along a tunnel, nothing is
  * left. */
 Vector6d observedPart(const Vector6d& motion, const Matrix6d& information);
 

@@ -25,7 +25,7 @@ struct PreparationOptions {
 
 /** What the preparation of scans has cost. */
 struct PreparationReport {
-  size_t scans = 0;    ///< prepared, those counted twice that had to be prepared again
+  size_t scans = 0;    ///< prepared; counted again if prepared again
   double seconds = 0;  ///< of all threads together
 };
 
@@ -37,7 +37,7 @@ struct PreparationReport {
  */
 class PreparedScanStore {
  public:
-  /** A key node's scan with up to so many neighbours on each side. */
+  /** A key node's scan with its neighbours, up to a number on each side. */
   struct Key {
     KeyNodeId id;
     uint32_t before = 0, after = 0;
@@ -79,7 +79,7 @@ class PreparedScanStore {
   };
   /** A scan that one thread prepares while others that want it wait. */
   struct Entry {
-    size_t scans = 0;  ///< how many it is made of: fewer than members(), and it is out of date
+    size_t scans = 0;  ///< how many it is made of; out of date once members() has more
     std::once_flag once;
     PreparedScanPtr prepared;
     bool counted = false;  ///< in bytes_

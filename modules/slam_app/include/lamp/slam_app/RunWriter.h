@@ -32,7 +32,7 @@ struct RunResult {
   Eigen::Vector3d world_p_origin = Eigen::Vector3d::Zero();
 };
 
-/** Called before each long step with the share of the writing that is done and what comes. */
+/** Called before each long step with the share of the writing that is done and what comes next. */
 using WriteProgress = std::function<void(double share, const std::string& step)>;
 
 /** Writes all files of docs/run-folder.md but timings.json, which comes last. A file that cannot be

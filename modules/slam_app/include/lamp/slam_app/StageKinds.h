@@ -47,7 +47,7 @@ const StageKind& stageKind(const mrpt::rtti::TRuntimeClassId* base);
 /** Registers the stages of all modules; to be called before anything is made by name. */
 void registerAllClasses_lamp();
 
-/** All stage classes by kind, one line a class; what `--list-modules` prints. */
+/** All stage classes by kind, one per line; what `--list-modules` prints. */
 std::string listStages();
 
 }  // namespace lamp
