@@ -19,8 +19,8 @@ constexpr double kExcess = 2.0;
 /** A placement is refuted if this many more pairs contradict it than chance explains, plus this
  * many standard deviations. */
 constexpr double kFewestPairs = 4.0, kDeviations = 2.0;
-/** Patches are distinctive if they contradict so many of the refuted placements; fewer of them tell
- * nothing. */
+/** Patches are distinctive if they contradict at least this many refuted placements; fewer patches
+ * tell nothing. */
 constexpr size_t kFewestRefuted = 3;
 constexpr double kFewestDistinctive = 10.0;
 

@@ -24,7 +24,7 @@ constexpr double kStep_m = 1.5;
 /** Starts with more of the points where the other scan's rays passed lead nowhere: across a
  * corridor, one of its walls does. */
 constexpr double kMostInFreeSpace = 0.25, kMargin_m = 0.3;
-/** The share of the positions that the guess allows which is searched. */
+/** Probability of the region that is searched. */
 constexpr double kProbability = 0.99;
 
 /** Horizontal covariance of the guess's position in the target's frame. */

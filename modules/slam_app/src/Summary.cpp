@@ -88,7 +88,7 @@ Json frameSummary(const RunResult& result, const FrameAgreement& frames) {
           {"contradicting", frames.contradicting}};
 }
 
-/** By type: edges beside odometry, priors and loop closures, and how many are kept. */
+/** By type: edges other than odometry, priors and loop closures, and how many are kept. */
 Json measurementSummary(const PoseGraph& graph) {
   Json json = Json::object();
   for (const Edge& edge : graph.edges()) {

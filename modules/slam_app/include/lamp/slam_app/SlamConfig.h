@@ -58,7 +58,7 @@ class SlamConfig {
   /** Reads the file and applies `section.key=value` overrides. Paths of recordings in the file are
    * relative to the file, those of overrides and `rawlogs` to the working directory; all become
    * absolute. \param path empty for the defaults.
-   * \param rawlogs further recordings, beside those that the ini names. */
+   * \param rawlogs recordings in addition to those that the ini names. */
   static SlamConfig fromFile(const std::string& path, const std::vector<std::string>& overrides,
                              const std::vector<std::string>& rawlogs = {});
 
