@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lamp/core/Median.h"
+
 namespace lamp {
 
 namespace {
@@ -13,12 +15,6 @@ constexpr double kExpectedSurprise = 1.5;
 /** It is judged after so many scans. */
 constexpr size_t kScans = 20;
 constexpr double kMaxScale = 1e4;
-
-double medianOf(std::deque<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 
 #include "OdometryContinuity.h"
 #include "lamp/core/Csv.h"
+#include "lamp/core/Median.h"
 #include "lamp/frontend/LidarOdometry.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(OdometrySource, Stage, lamp)
@@ -30,12 +31,6 @@ constexpr double kKeptS = 60.0;
 
 /** A robot in the plane may seem to leave it by so much, and this share of its path. */
 constexpr double kPlaneM = 0.1, kPlaneShare = 0.02, kPlaneRad = 3.0 * kDegree;
-
-double median(std::deque<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -70,7 +65,7 @@ void RecordedOdometry::noteGap(const OdometryReading& before, const OdometryRead
   const Pose3 motion = before.odom_T_base.inverse() * after.odom_T_base;
   path_m_ += motion.translation().norm();
   const bool gap = intervals_.size() >= kFewestIntervals &&
-                   interval > std::max(kLeastGapS, kGapFactor * median(intervals_));
+                   interval > std::max(kLeastGapS, kGapFactor * medianOf(intervals_));
   const bool moved = motion.translation().norm() > kStoodM || rotationAngle(motion) > kStoodRad;
   if (gap && moved) gaps_.push_back({before.stamp, after.stamp});
   if (gap) return;
