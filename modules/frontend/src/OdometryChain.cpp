@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lamp/input/ScanFromObservation.h"
+
 namespace lamp {
 
 namespace {
@@ -33,7 +35,7 @@ OdometryChain::OdometryChain(std::vector<std::shared_ptr<OdometrySource>> source
 }
 
 void OdometryChain::observe(const InputObservation& observation) {
-  newest_ = std::max(newest_, observation.stamp);
+  if (isLidar(*observation.observation)) newest_ = std::max(newest_, observation.stamp);
   gyros_.observe(observation);
   if (tracker_) tracker_->observe(observation);
   for (const auto& source : others_) source->observe(observation);
@@ -124,6 +126,7 @@ Pose3 OdometryChain::track(double stamp, FilteredScan& scan) {
   const Pose3 odom_T_base = tracker_->track(stamp, known, scan);
   if (const auto seen = tracker_->seenOrientation()) gyros_.compare(stamp, *seen);
   last_ = stamp;
+  if (OdometrySource* const other = recorded()) comparison_.observe({stamp, odom_T_base}, *other);
   return odom_T_base;
 }
 
@@ -138,6 +141,7 @@ std::vector<std::string> OdometryChain::warnings() const {
     for (std::string& warning : source->warnings()) result.push_back(std::move(warning));
   if (tracker_)
     for (std::string& warning : tracker_->warnings()) result.push_back(std::move(warning));
+  for (std::string& warning : comparison_.warnings()) result.push_back(std::move(warning));
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "GyroRotation.h"
+#include "OdometryComparison.h"
 #include "lamp/frontend/MotionModel.h"
 #include "lamp/frontend/OdometrySource.h"
 
@@ -68,8 +69,9 @@ class OdometryChain {
   double stamp_sigma_s_ = 0;  ///< how well stamps of scans and of odometry agree
   bool planar_ = false;       ///< the last scan tracked
   std::optional<bool> tracks_;
-  double newest_ = 0;           ///< stamp, of all observations
+  double newest_ = 0;           ///< stamp, of all scans: other clocks may differ
   std::optional<double> last_;  ///< stamp of the last scan tracked
+  OdometryComparison comparison_;
 };
 
 }  // namespace lamp

@@ -38,6 +38,13 @@ TEST(OdometryChain, DoesNotWaitForeverWhereTheLidarCanTell) {
   EXPECT_TRUE(odometry.tracks());
 }
 
+TEST(OdometryChain, WaitsByTheClockOfTheLidar) {
+  OdometryChain odometry = chain(true, true);
+  odometry.observe(cloud(kStart, somePoints()));
+  odometry.observe(wrapped(kStart + 5, "imu", mrpt::obs::CObservationIMU::Create()));
+  EXPECT_FALSE(odometry.ready(kStart)) << "the inertial unit has another clock";
+}
+
 TEST(OdometryChain, WaitsForAsLongAsItTakesWithoutTheLidar) {
   OdometryChain odometry = chain(false, true);
   odometry.observe(cloud(kStart, somePoints()));
