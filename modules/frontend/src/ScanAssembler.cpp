@@ -3,27 +3,35 @@
 #include <algorithm>
 #include <utility>
 
+#include "LidarRoster.h"
 #include "lamp/core/Csv.h"
 #include "lamp/input/ScanFromObservation.h"
 
 namespace lamp {
 
-namespace {
+ReferenceLidarScans::ReferenceLidarScans(double merge_window_s, const ScanOptions& options)
+    : merge_window_s_(merge_window_s),
+      options_(options),
+      roster_(std::make_unique<LidarRoster>()) {}
 
-/** A lidar that has given nothing for this time, and this many of its intervals, is dead. */
-constexpr double kSilentS = 2.0, kSilentFactor = 5.0;
-
-}  // namespace
+ReferenceLidarScans::~ReferenceLidarScans() = default;
 
 std::vector<ScanParts> ReferenceLidarScans::observe(const InputObservation& observation) {
-  if (!isLidar(*observation.observation)) return {};
-  if (!reference_ || (observation.label != *reference_ && isSilent(observation.stamp)))
+  const InputObservation named = roster_->take(observation);
+  // What is known of sweeps is that of two lidars.
+  if (named.label != observation.label && latest_other_.count(named.label) == 0)
+    gatherer_.emplace();
+  return isLidar(*observation.observation) ? takeScan(named) : std::vector<ScanParts>();
+}
+
+std::vector<ScanParts> ReferenceLidarScans::takeScan(const InputObservation& observation) {
+  if (!reference_ ||
+      (observation.label != *reference_ && roster_->isSilent(*reference_, observation.stamp)))
     changeReference(observation);
   if (observation.label != *reference_) {
     latest_other_[observation.label] = observation;
     return {};
   }
-  noteInterval(observation.stamp);
   std::vector<ScanParts> complete;
   const auto close = [&] {
     if (open_) complete.push_back(std::move(*std::exchange(open_, std::nullopt)));
@@ -66,31 +74,23 @@ std::optional<ScanParts> ReferenceLidarScans::finish() {
   return std::exchange(open_, std::nullopt);
 }
 
-/** A pause of the recording is no interval. */
-void ReferenceLidarScans::noteInterval(double stamp) {
-  if (last_) {
-    const double interval = stamp - *last_;
-    interval_s_ = interval_s_ ? std::min(interval, 2 * *interval_s_) : interval;
-  }
-  last_ = stamp;
-}
-
-bool ReferenceLidarScans::isSilent(double stamp) const {
-  const double most = interval_s_ ? kSilentFactor * *interval_s_ : kSilentFactor * kSilentS;
-  return last_ && stamp - *last_ > std::max(kSilentS, most);
-}
-
 void ReferenceLidarScans::changeReference(const InputObservation& observation) {
   if (reference_) {
     warnings_.push_back("the lidar '" + *reference_ + "' is silent after " +
-                        formatFixed(*last_, 3) + "; key nodes are made of scans of '" +
-                        observation.label + "' from then on");
-    interval_s_.reset();
+                        formatFixed(roster_->lastOf(*reference_), 3) +
+                        "; key nodes are made of scans of '" + observation.label +
+                        "' from then on");
+    roster_->excuse(*reference_);
   }
   reference_ = observation.label;
   latest_other_.erase(observation.label);
   gatherer_.emplace();
-  last_.reset();
+}
+
+std::vector<std::string> ReferenceLidarScans::warnings() const {
+  std::vector<std::string> result = warnings_;
+  for (std::string& warning : roster_->warnings()) result.push_back(std::move(warning));
+  return result;
 }
 
 std::optional<ScanParts> SameStampScans::advanceTo(double stamp) {

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 InputObservation scan(double t, const std::string& label) {
-  return cloud(kStart + t, somePoints(), label);
+  return cloud(kStart + t, somePoints(), label, {label == "front" ? 0.4 : -0.4, 0, 0.6});
 }
 
 /** `stamp: labels` of a scan, and what says that there is none. */
@@ -65,6 +65,19 @@ TEST(ReferenceLidarScans, GatherThePiecesOfASweep) {
       pieces.push_back(parts.observations.size());
   }
   EXPECT_THAT(pieces, ElementsAre(10, 10, 10));
+}
+
+TEST(ReferenceLidarScans, JoinLidarsThatShareALabel) {
+  ReferenceLidarScans scans(0.2, ScanOptions());
+  size_t with_both = 0;
+  for (int i = 0; i < 50; ++i) {
+    for (const double x : {0.4, -0.4})
+      for (const ScanParts& parts : scans.observe(
+               cloud(kStart + 0.1 * i + (x > 0 ? 0 : 0.04), somePoints(), "lidar", {x, 0, 0.6})))
+        with_both += parts.observations.size() == 2 ? 1 : 0;
+  }
+  EXPECT_GE(with_both, 40u);
+  EXPECT_THAT(scans.warnings(), ElementsAre(HasSubstr("2 lidars have the label 'lidar'")));
 }
 
 TEST(ReferenceLidarScans, AnotherLidarTakesOverFromOneThatDies) {

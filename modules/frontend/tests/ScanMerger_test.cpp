@@ -52,6 +52,7 @@ TEST(ScanMerger, JoinsThePiecesOfASweep) {
   ASSERT_EQ(scan.size(), 3u);
   EXPECT_EQ(scan.sensors.size(), 2u);
   EXPECT_EQ(scan.sensor, (std::vector<uint8_t>{0, 0, 1}));
+  EXPECT_TRUE(scan.sensors[0].position.isZero(1e-9)) << "where the lidar was at the scan's stamp";
   EXPECT_TRUE(scan.points[1].isApprox(Eigen::Vector3f(1, 1, 0), 1e-5f));
   EXPECT_TRUE(scan.points[2].isApprox(Eigen::Vector3f(-1, 0, 1), 1e-5f));
   EXPECT_FALSE(scan.hasTimes());

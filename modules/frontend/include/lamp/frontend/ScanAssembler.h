@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct ScanParts {
   double stamp = 0;  ///< seconds, UTC: the scan's
   std::vector<InputObservation> observations;
 };
+
+class LidarRoster;
 
 /** Says which lidar observations of a robot make up one scan. */
 class ScanAssembler {
@@ -39,27 +42,25 @@ class ScanAssembler {
  * the next one that speaks takes its place. */
 class ReferenceLidarScans : public ScanAssembler {
  public:
-  ReferenceLidarScans(double merge_window_s, const ScanOptions& options)
-      : merge_window_s_(merge_window_s), options_(options) {}
+  ReferenceLidarScans(double merge_window_s, const ScanOptions& options);
+  ~ReferenceLidarScans() override;
 
   std::optional<ScanParts> advanceTo(double) override { return std::nullopt; }
   std::vector<ScanParts> observe(const InputObservation& observation) override;
   std::optional<ScanParts> finish() override;
-  std::vector<std::string> warnings() const override { return warnings_; }
+  std::vector<std::string> warnings() const override;
 
  private:
+  std::vector<ScanParts> takeScan(const InputObservation& observation);
   bool begins(const InputObservation& observation);
-  void noteInterval(double stamp);
-  bool isSilent(double stamp) const;
   void changeReference(const InputObservation& observation);
 
   const double merge_window_s_;
   const ScanOptions options_;
+  const std::unique_ptr<LidarRoster> roster_;
   std::optional<SweepGatherer> gatherer_{SweepGatherer()};
-  std::optional<ScanParts> open_;     ///< not yet known to be complete
-  bool stands_alone_ = true;          ///< the last observation; the next one begins a scan
-  std::optional<double> last_;        ///< stamp of the reference lidar's last scan
-  std::optional<double> interval_s_;  ///< between its scans
+  std::optional<ScanParts> open_;  ///< not yet known to be complete
+  bool stands_alone_ = true;       ///< the last observation; the next one begins a scan
   std::vector<std::string> warnings_;
   std::optional<std::string> reference_;
   std::map<std::string, InputObservation> latest_other_;
