@@ -1,6 +1,7 @@
 #include "InputWarnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,6 +14,9 @@ using Labels = std::vector<LabelReport>;
 
 /** Sensors of one recording are not that far apart in time, seconds. */
 constexpr double kApartS = 10.0;
+/** So many comparisons tell that a clock is another one, if nearly all agree. */
+constexpr size_t kFewestCompared = 5;
+constexpr double kNearlyAll = 0.9;
 
 std::string counted(size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
@@ -46,7 +50,8 @@ void warnOfDrops(const LabelReport& label, const std::string& who,
   const std::string what = who + "label '" + label.label + "' (" + label.class_name + "): ";
   if (label.repeated > 0) {
     warnings.push_back(what + counted(label.repeated, "observation") +
-                       " dropped whose stamp repeats the one before");
+                       " dropped whose stamp repeats the one before" +
+                       (label.lidar ? ": do two lidars share the label?" : ""));
   }
   if (label.backwards > 0) {
     warnings.push_back(what + counted(label.backwards, "observation") +
@@ -60,6 +65,20 @@ void warnOfDrops(const LabelReport& label, const std::string& who,
     warnings.push_back(what + counted(label.unloadable, "observation") +
                        " dropped whose data file is missing or damaged");
   }
+}
+
+/** Where a recording holds its observations as they came. */
+void warnOfClocks(const LabelReport& label, const std::string& who,
+                  std::vector<std::string>& warnings) {
+  const ClockComparison& clock = label.clock;
+  if (clock.all < kFewestCompared ||
+      static_cast<double>(clock.apart) < kNearlyAll * static_cast<double>(clock.all))
+    return;
+  const double apart = clock.apart_s / static_cast<double>(clock.apart);
+  warnings.push_back(who + "label '" + label.label + "' (" + label.class_name +
+                     "): stamps lie about " + formatFixed(std::abs(apart), 1) + " s " +
+                     (apart > 0 ? "after" : "before") +
+                     " those of the lidar scans recorded beside them: is its clock another one?");
 }
 
 void warnOfChoices(const RobotReport& robot, const RobotOptions& options, const std::string& who,
@@ -139,7 +158,10 @@ std::vector<std::string> robotWarnings(const RobotReport& robot, const RobotOpti
     warnings.push_back(who + "no observation: no recording belongs to it, by option or by label");
     return warnings;
   }
-  for (const LabelReport& label : robot.labels) warnOfDrops(label, who, warnings);
+  for (const LabelReport& label : robot.labels) {
+    warnOfDrops(label, who, warnings);
+    warnOfClocks(label, who, warnings);
+  }
   for (const ClockStep& step : robot.clock_steps) {
     warnings.push_back(who + "the clock was set back within the recording: from " +
                        formatFixed(step.stamp, 3) + " on, all stamps are taken " +

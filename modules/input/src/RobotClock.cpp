@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace lamp {
 
@@ -44,6 +45,7 @@ void RobotClock::take(InputObservation observation) {
       tracks_.try_emplace({observation.label, report(observation).class_name});
   Track& track = found->second;
   if (is_new) track.first = stamp;
+  compare(track, observation);
   const bool behind = !track.recent.empty() && stamp <= track.recent.back().first;
   if (!behind) {
     drop(track);
@@ -58,6 +60,23 @@ void RobotClock::take(InputObservation observation) {
   } else {
     hold(track, observation);
   }
+}
+
+/** What is recorded between two lidar scans should have a stamp between theirs. */
+void RobotClock::compare(Track& track, const InputObservation& observation) {
+  LabelReport& counts = report(observation);
+  if (!counts.lidar) {
+    if (!track.beside) track.beside = observation.stamp;
+    counts.clock = track.clock;
+    return;
+  }
+  const auto [first, last] = std::minmax({lidar_.value_or(observation.stamp), observation.stamp});
+  for (auto& [sensor, other] : tracks_) {
+    const auto stamp = std::exchange(other.beside, std::nullopt);
+    if (!stamp || !lidar_) continue;
+    other.clock.add(*stamp - std::clamp(*stamp, first, last));
+  }
+  lidar_ = observation.stamp;
 }
 
 void RobotClock::finish() {

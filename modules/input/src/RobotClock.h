@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,6 +33,8 @@ class RobotClock {
   /** What one sensor has given so far. */
   struct Track {
     double first = 0;
+    std::optional<double> beside;  ///< the first stamp since the last lidar scan
+    ClockComparison clock;
     std::deque<TimeSorter::Key> recent;  ///< the last ones that were passed on
     std::vector<InputObservation> held;  ///< behind those, in file order
   };
@@ -45,16 +48,18 @@ class RobotClock {
   double stepBack() const;
 
   LabelReport& report(const InputObservation& observation);
+  void compare(Track& track, const InputObservation& observation);
 
   const RobotId robot_;
   TimeSorter& sorter_;
   RobotRegistry& registry_;
   std::map<std::pair<std::string, std::string>, Track> tracks_;  ///< by label and class
   RecentMedian seen_;
-  size_t held_ = 0;      ///< in all tracks
-  size_t in_order_ = 0;  ///< passed on while something is held
-  bool copied_ = false;  ///< what falls behind repeats the beginning of the recording
-  double offset_ = 0;    ///< seconds, from the recorded stamps
+  std::optional<double> lidar_;  ///< stamp of the last lidar scan
+  size_t held_ = 0;              ///< in all tracks
+  size_t in_order_ = 0;          ///< passed on while something is held
+  bool copied_ = false;          ///< what falls behind repeats the beginning of the recording
+  double offset_ = 0;            ///< seconds, from the recorded stamps
 };
 
 }  // namespace lamp

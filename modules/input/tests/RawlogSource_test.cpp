@@ -69,6 +69,26 @@ TEST_F(RawlogSourceTest, LabelsNameRobots) {
   EXPECT_FALSE(source.next());
 }
 
+TEST_F(RawlogSourceTest, SaysThatASensorHasAnotherClock) {
+  for (const double offset : {-300.0, -5.0, 0.0, 0.6, 5.0}) {
+    Objects objects;
+    for (int i = 0; i < 40; ++i) {
+      objects.push_back(cloud(1000 + 2 * i, "lidar"));
+      objects.push_back(wheels(1000 + 2 * i + 1 + offset, "odo"));
+      objects.push_back(wheels(1000 + 2 * i + 1.5 + offset, "odo"));
+    }
+    RawlogSource source({write("clock.rawlog", objects)}, {}, table_);
+    drain(source);
+    if (std::abs(offset) < 1)
+      EXPECT_THAT(source.warnings(), IsEmpty()) << offset;
+    else
+      EXPECT_THAT(source.warnings(),
+                  Contains(AllOf(HasSubstr("'odo'"), HasSubstr("is its clock another one"),
+                                 HasSubstr(offset > 0 ? "4.0 s after" : " s before"))))
+          << offset;
+  }
+}
+
 TEST_F(RawlogSourceTest, IniThenStemNameTheRest) {
   const auto a = write("a.rawlog", {wheels(1, "odo")});
   const auto b = write("run b.rawlog", {wheels(2, "/odo")});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -8,6 +9,21 @@
 #include "lamp/input/RawlogReader.h"
 
 namespace lamp {
+
+/** How far a sensor's stamps lie from those of the lidar scans that are recorded around them. */
+struct ClockComparison {
+  static constexpr double kBesideS = 1.0;  ///< usual
+
+  size_t all = 0, apart = 0;  ///< stamps; and those farther away than is usual
+  double apart_s = 0;         ///< sum over the latter, seconds
+
+  void add(double seconds) {
+    ++all;
+    if (std::abs(seconds) <= kBesideS) return;
+    ++apart;
+    apart_s += seconds;
+  }
+};
 
 /** What became of the observations of one class under one label. */
 struct LabelReport {
@@ -22,6 +38,7 @@ struct LabelReport {
   size_t left_out = 0;                     ///< dropped: the options choose other odometry or lidars
   double first_stamp = 0, last_stamp = 0;  ///< of those used, seconds, UTC
   size_t unloadable = 0;                   ///< dropped: the file with its data cannot be loaded
+  ClockComparison clock;
 
   void use(double stamp) {
     if (used++ == 0) first_stamp = stamp;
