@@ -34,6 +34,7 @@ Scan withoutLonePoints(const Scan& scan, double cell_m) {
     if (!isUsable(scan.points[i]) || !hasNeighbor(cellOf(scan.points[i], cell_m), counts)) continue;
     rest.points.push_back(scan.points[i]);
     if (scan.hasIntensity()) rest.intensity.push_back(scan.intensity[i]);
+    if (scan.hasTimes()) rest.time.push_back(scan.time[i]);
     rest.sensor.push_back(scan.sensor[i]);
   }
   return rest;

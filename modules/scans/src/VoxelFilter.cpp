@@ -6,6 +6,7 @@
 
 #include "GridCell.h"
 #include "lamp/scans/Cloud.h"
+#include "lamp/scans/LonePoints.h"
 
 namespace lamp {
 
@@ -81,7 +82,8 @@ AdaptiveVoxelFilter::AdaptiveVoxelFilter(const AdaptiveVoxelOptions& options)
                        std::max(options.min_leaf_m, options.max_leaf_m))) {}
 
 Scan AdaptiveVoxelFilter::filter(const Scan& scan) {
-  constexpr double kCloseEnough = 0.1;
+  constexpr double kCloseEnough = 0.07;
+  constexpr double kLeastRest = 0.8;  // else the scan is thin, and its points are no outliers
   Scan filtered = voxelFilter(scan, leaf_);
   for (int pass = 1; pass < options_.max_passes && !filtered.points.empty(); ++pass) {
     const double next = corrected(filtered.size());
@@ -89,7 +91,10 @@ Scan AdaptiveVoxelFilter::filter(const Scan& scan) {
     leaf_ = next;
     filtered = voxelFilter(scan, leaf_);
   }
-  return filtered;
+  Scan rest = withoutLonePoints(filtered, options_.max_leaf_m);
+  const bool thin =
+      static_cast<double>(rest.size()) < kLeastRest * static_cast<double>(filtered.size());
+  return thin ? filtered : rest;
 }
 
 double AdaptiveVoxelFilter::corrected(size_t points) const {

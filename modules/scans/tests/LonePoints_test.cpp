@@ -17,6 +17,7 @@ Scan scanOf(std::vector<Vector3f> points) {
   for (size_t i = 0; i < scan.size(); ++i) {
     scan.sensor.push_back(0);
     scan.intensity.push_back(static_cast<float>(i));
+    scan.time.push_back(0.1f * static_cast<float>(i));
   }
   return scan;
 }
@@ -28,6 +29,7 @@ TEST(LonePoints, AreLeftOutWithTheirFields) {
       withoutLonePoints(scanOf({{0, 0, 0}, {50, 0, 0}, {0.9f, 0, 0}, {0, -80, 3}, {50, 30, 0}}), 1);
   EXPECT_THAT(rest.points, ElementsAre(Vector3f(0, 0, 0), Vector3f(0.9f, 0, 0)));
   EXPECT_THAT(rest.intensity, ElementsAre(0, 2));
+  EXPECT_THAT(rest.time, ElementsAre(0, 0.2f));
   EXPECT_EQ(rest.sensor.size(), 2u);
   EXPECT_EQ(rest.sensors.size(), 1u);
 }

@@ -57,6 +57,37 @@ TEST(AdaptiveVoxelFilter, ComesNearTheTargetForDifferentLidars) {
   }
 }
 
+TEST(AdaptiveVoxelFilter, RobotsWithOneAndThreeLidarsGetAlikeScans) {
+  AdaptiveVoxelFilter spot(AdaptiveVoxelOptions{}), husky(AdaptiveVoxelOptions{});
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    Scan three = scanOf(roomPoints(45000, 0.02f, seed));
+    for (size_t i = 0; i < three.size(); ++i) three.sensor[i] = static_cast<uint8_t>(i / 15000);
+    three.sensors.assign(3, three.sensors.front());
+    const double few =
+        static_cast<double>(spot.filter(scanOf(roomPoints(15000, 0.02f, seed))).size());
+    const double many = static_cast<double>(husky.filter(three).size());
+    if (seed < 10) continue;  // scans until it has settled
+    EXPECT_LT(std::abs(std::log(many / few)), std::log(1.15)) << many << " " << few;
+  }
+}
+
+TEST(AdaptiveVoxelFilter, LeavesOutLonePoints) {
+  std::vector<Eigen::Vector3f> points = roomPoints(20000, 0.01f, 1);
+  const size_t room = points.size();
+  for (int i = 0; i < 200; ++i)  // dust, high above the room
+    points.emplace_back(static_cast<float>(5 * (i % 10)), static_cast<float>(5 * (i / 10)), 50.0f);
+  ASSERT_EQ(points.size(), room + 200);
+  AdaptiveVoxelFilter filter(AdaptiveVoxelOptions{});
+  const Scan filtered = filter.filter(scanOf(points));
+  EXPECT_NEAR(static_cast<double>(filtered.size()), 3000, 450);
+  for (const Eigen::Vector3f& point : filtered.points) EXPECT_LT(point.z(), 40);
+}
+
+TEST(AdaptiveVoxelFilter, KeepsAThinScan) {
+  AdaptiveVoxelFilter filter(AdaptiveVoxelOptions{});
+  EXPECT_EQ(filter.filter(scanOf({{5, 0, 0}, {0, 5, 0}, {-5, 0, 2}, {0, -5, 2}})).size(), 4u);
+}
+
 TEST(AdaptiveVoxelFilter, StaysWithinItsLeafLimits) {
   AdaptiveVoxelOptions options;
   options.target_points = 1000000;

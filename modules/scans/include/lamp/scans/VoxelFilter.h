@@ -5,9 +5,9 @@
 
 namespace lamp {
 
-/** One point, the mean in place, intensity and time, for each occupied cell of a grid with edge `leaf_m` (metres). Points of
- * different sensors are not mixed, so that each keeps its true ray. Points that are not finite, or
- * farther than 1000 km, are left out. Order: by first point. */
+/** One point, the mean in place, intensity and time, for each occupied cell of a grid with edge
+ * `leaf_m` (metres). Points of different sensors are not mixed, so that each keeps its true ray.
+ * Points that are not finite, or farther than 1000 km, are left out. Order: by first point. */
 Scan voxelFilter(const Scan& scan, double leaf_m);
 
 struct AdaptiveVoxelOptions {
@@ -22,7 +22,9 @@ struct AdaptiveVoxelOptions {
 
 /** Adaptive voxel filter (paper II-B, after LOCUS 2.0): feedback on the leaf size keeps the number
  * of points near a target whatever the lidar and the room. The leaf is corrected within a scan,
- * too, so that already the first key node has the right size. */
+ * too, so that already the first key node has the right size. Points that have no other one within
+ * the largest leaf are dust, rain or false returns, and left out, unless the scan is thin
+ * altogether. */
 class AdaptiveVoxelFilter {
  public:
   explicit AdaptiveVoxelFilter(const AdaptiveVoxelOptions& options);
