@@ -8,9 +8,11 @@
 
 #include "ApertureCheck.h"
 #include "OdometryChain.h"
+#include "PassedScans.h"
 #include "ScanMerger.h"
 #include "StandstillCheck.h"
 #include "lamp/core/Csv.h"
+#include "lamp/core/Median.h"
 
 namespace lamp {
 
@@ -41,10 +43,7 @@ double medianRange(const Scan& scan) {
   std::vector<float> ranges;
   for (size_t i = 0; i < scan.size(); ++i)
     ranges.push_back((scan.points[i] - scan.sensors[scan.sensor[i]].position.cast<float>()).norm());
-  if (ranges.empty()) return 0;
-  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-  std::nth_element(ranges.begin(), middle, ranges.end());
-  return *middle;
+  return ranges.empty() ? 0 : medianOf(std::move(ranges));
 }
 
 std::string degrees(double radians) {
@@ -56,6 +55,7 @@ FrontEndOptions inEffect(FrontEndOptions options) {
   if (options.keyed) {
     options.scan.min_range_m = 0;
     options.scan.max_range_m = std::numeric_limits<double>::infinity();
+    options.scan.body_box.clear();
   }
   return options;
 }
@@ -98,7 +98,8 @@ FrontEnd::FrontEnd(RobotId robot, const FrontEndOptions& options,
       voxel_filter_(options.voxel),
       standstill_(std::make_unique<StandstillCheck>(options.keyed ? 0 : kStandstillLookS)),
       aperture_(std::make_unique<ApertureCheck>()),
-      extras_(options.gravity) {}
+      extras_(options.gravity),
+      passed_scans_(std::make_unique<PassedScans>()) {}
 
 FrontEnd::~FrontEnd() = default;
 
@@ -148,13 +149,14 @@ std::vector<KeyNodePacket> FrontEnd::finish() {
 }
 
 RobotEnd FrontEnd::end() {
-  return {robot_, std::move(passed_scans_),
-          last_key_ ? takeExtras(last_key_->pose) : KeyNodeExtras()};
+  return {robot_, passed_scans_->take(), last_key_ ? takeExtras(last_key_->pose) : KeyNodeExtras()};
 }
 
 std::optional<KeyNodePacket> FrontEnd::processScan(const ScanParts& parts) {
-  for (const InputObservation& part : parts.observations)
+  for (const InputObservation& part : parts.observations) {
     planar_lidar_ = planar_lidar_ && isPlanarLaser(*part.observation);
+    checkTilt(part);
+  }
   checkAperture(parts);
   if (odometry_->tracks()) {
     Scan scan = filtered(merged(parts));
@@ -181,7 +183,7 @@ std::optional<KeyNodePacket> FrontEnd::processPose(const ScanParts& parts, const
     if (!scan->points.empty()) return makePacket(parts.stamp, odom_T_base, std::move(*scan));
     ++counts_.empty_scans;
   }
-  passed_scans_.push_back({parts.stamp, odom_T_base});
+  passed_scans_->add({parts.stamp, odom_T_base});
   return std::nullopt;
 }
 
@@ -201,6 +203,13 @@ Pose3 FrontEnd::track(double stamp, Scan& scan) {
 
 bool FrontEnd::planar() const {
   return planar_lidar_ && odometry_->planar();
+}
+
+void FrontEnd::checkTilt(const InputObservation& part) {
+  using mrpt::obs::CObservation2DRangeScan;
+  if (dynamic_cast<const CObservation2DRangeScan*>(part.observation.get()) &&
+      !isPlanarLaser(*part.observation))
+    tilted_lasers_.emplace(part.label, laserTilt(*part.observation));
 }
 
 /** By recorded odometry: what is made of bent scans fits them. */
@@ -226,9 +235,10 @@ bool FrontEnd::placed(const ScanParts& parts, const Pose3& odom_T_base) {
   if (!contradicted) return true;
   ++counts_.contradicted;
   double begin = last_stamp_;
-  for (; !passed_scans_.empty() && passed_scans_.back().stamp >= standstill_->begin();
-       passed_scans_.pop_back(), ++counts_.contradicted)
+  if (const size_t dropped = passed_scans_->dropFrom(standstill_->begin()); dropped > 0) {
+    counts_.contradicted += dropped;
     begin = standstill_->begin();
+  }
   leaveOut(begin, parts.stamp, standstill_->speed(), kFailedRadPerS);
   return false;
 }
@@ -309,8 +319,7 @@ KeyNodePacket FrontEnd::makePacket(double stamp, const Pose3& odom_T_base, Scan 
   packet.odom_T_base = odom_T_base;
   packet.planar = planar();
   packet.scan = std::make_shared<const Scan>(std::move(scan));
-  packet.passed_scans = std::move(passed_scans_);
-  passed_scans_.clear();
+  packet.passed_scans = passed_scans_->take();
   if (!last_key_ && prior_) world_T_odom_ = prior_->world_T_base * odom_T_base.inverse();
   packet.extras = takeExtras(odom_T_base);
   if (last_key_)
@@ -350,6 +359,10 @@ std::vector<std::string> FrontEnd::warnings() const {
                      " deg, but its scans turn against odometry as if it were about " +
                      degrees(*seen) + " deg: every scan is bent; set [frontend] " +
                      "laser_aperture_deg to what the laser has");
+  for (const auto& [label, tilt] : tilted_lasers_)
+    result.push_back("the 2D laser '" + label + "' is tilted by " + degrees(tilt) +
+                     " deg: the robot is mapped in space, of which its scans show a slanted line "
+                     "only; if it lies level, correct its sensorPose");
   if (gravity_believed_ && !*gravity_believed_)
     result.push_back("the inertial unit is not used: what it says is up lies " +
                      degrees(gravity_deviation_) + " deg from that of " +

@@ -21,6 +21,10 @@ void GravityOptions::visit(OptionVisitor& v) {
     kPositive);
   v("gravity_max_change_m_s2", gravity_max_change_m_s2, "m/s2",
     "maximum difference between the mean accelerations in the two halves of that time", kPositive);
+  v("gravity_max_shake_m_s2", gravity_max_shake_m_s2, "m/s2",
+    "maximum standard deviation of the acceleration during that time: a robot that drives shakes, "
+    "one whose fans and motors run does a little",
+    kPositive);
   v("gravity_sigma_deg", gravity_sigma_deg, "deg",
     "standard deviation of roll and pitch measured this way: mounting error and biases of the IMU",
     kPositive);
@@ -43,7 +47,12 @@ std::optional<GravityReading> GravityDetector::observe(double stamp,
   for (size_t i = 0; i < 2 * half; ++i)
     halves[i / half] += window_[i].reading.specific_force / static_cast<double>(half);
   const Eigen::Vector3d mean = 0.5 * (halves[0] + halves[1]);
-  const bool even = (halves[0] - halves[1]).norm() <= options_.gravity_max_change_m_s2 &&
+  double shake2 = 0;
+  for (const Sample& sample : window_)
+    shake2 += (sample.reading.specific_force - mean).squaredNorm();
+  shake2 /= static_cast<double>(window_.size());
+  const bool even = shake2 <= std::pow(options_.gravity_max_shake_m_s2, 2) &&
+                    (halves[0] - halves[1]).norm() <= options_.gravity_max_change_m_s2 &&
                     std::abs(mean.norm() - kGravity_m_s2) <= kMaxDifference_m_s2;
   if (!even) return std::nullopt;
   return GravityReading{stamp, mean.normalized(), options_.gravity_sigma_deg * M_PI / 180.0};

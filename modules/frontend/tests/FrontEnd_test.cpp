@@ -481,6 +481,30 @@ TEST(FrontEnd, IsNotPlanarIfAnotherLidarSeesMore) {
   EXPECT_FALSE(drive.packets[1].planar);
 }
 
+TEST(FrontEnd, ATiltedLaserIsTold) {
+  Drive drive;
+  for (int i = 0; i < 3; ++i) {
+    drive.observe(wheels(kStart + i, 3.0 * i));
+    drive.observe(laser(kStart + i, 25));
+  }
+  drive.finish();
+  EXPECT_EQ(drive.packets.size(), 3u);
+  EXPECT_THAT(drive.front_end.warnings(),
+              ElementsAre(AllOf(HasSubstr("'laser' is tilted by 25 deg"), HasSubstr("in space"))));
+}
+
+TEST(FrontEnd, AStandstillMakesNoKeyNodesAndTakesNoMemory) {
+  Drive drive;
+  for (int i = 0; i < 5000; ++i) {
+    drive.observe(wheels(kStart + 0.1 * i, 0));
+    drive.observe(cloud(kStart + 0.1 * i, somePoints()));
+  }
+  drive.finish();
+  EXPECT_EQ(drive.packets.size(), 1u);
+  EXPECT_LT(drive.end.passed_scans.size(), 200u);
+  EXPECT_NEAR(drive.end.passed_scans.back().stamp, kStart + 499.9, 1e-3);
+}
+
 FrontEndOptions keyedOptions() {
   FrontEndOptions options;
   options.keyed = true;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace lamp {
@@ -55,6 +56,18 @@ TEST(GravityDetector, IsSilentWhileTheRobotTurnsOrAccelerates) {
   }));
   Unit falling;
   EXPECT_FALSE(falling.feel(5, [](double) { return Eigen::Vector3d(0, 0, 1); }));
+}
+
+TEST(GravityDetector, IsSilentWhileTheRobotDrivesOverGroundThatShakesIt) {
+  const auto shaking = [](double t) -> Eigen::Vector3d {
+    return atRest(t) + std::sin(2 * M_PI * 7 * t) * Eigen::Vector3d(0.2, 0.1, 1.0);
+  };
+  Unit unit;
+  EXPECT_TRUE(unit.feel(3, atRest));
+  EXPECT_FALSE(unit.feel(5, shaking)) << "its mean is as at rest";
+  EXPECT_TRUE(unit.feel(3, atRest));
+  const auto fans = [&](double t) -> Eigen::Vector3d { return 0.8 * atRest(t) + 0.2 * shaking(t); };
+  EXPECT_TRUE(unit.feel(3, fans));
 }
 
 TEST(GravityDetector, TurningStartsTheWindowAgain) {

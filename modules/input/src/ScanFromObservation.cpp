@@ -1,5 +1,6 @@
 #include "lamp/input/ScanFromObservation.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -43,6 +44,21 @@ std::optional<SensorReturns> returnsOfAny(const CObservation& observation) {
   return returns;
 }
 
+/** How much each of the sensor's own axes points up on the robot. */
+Eigen::Vector3d upInSensor(const CObservation& observation) {
+  mrpt::poses::CPose3D pose;
+  observation.getSensorPose(pose);
+  return poseFromMrpt(pose).linear().row(2);
+}
+
+/** The robot's body in the base frame; empty where none is set. */
+Eigen::AlignedBox3f boxOf(const std::vector<double>& corners) {
+  Eigen::AlignedBox3f box;
+  for (size_t i = 0; i + 3 <= corners.size(); i += 3)
+    box.extend(Eigen::Vector3d(corners[i], corners[i + 1], corners[i + 2]).cast<float>());
+  return box;
+}
+
 /** Times in milliseconds or of another clock would tear a scan apart. */
 void checkTimes(const std::vector<float>& times) {
   if (times.empty()) return;
@@ -64,6 +80,9 @@ void ScanOptions::visit(OptionVisitor& v) {
   v("laser_aperture_deg", laser_aperture_deg, "deg",
     "field of view of 2D lasers if the recording states it wrongly; 0 keeps the recorded one",
     {0, 360});
+  v("body_box", body_box, 6, "m",
+    "two opposite corners [x y z x y z] of a box in the base frame: returns within it are those of "
+    "the robot's own body and are dropped; empty keeps all");
 }
 
 bool isLidar(const CObservation& o) {
@@ -73,11 +92,13 @@ bool isLidar(const CObservation& o) {
 }
 
 bool isPlanarLaser(const CObservation& observation) {
-  const auto* laser = dynamic_cast<const CObservation2DRangeScan*>(&observation);
-  if (!laser) return false;
-  // How much the laser's own axes in the plane point up.
-  const Eigen::Vector3d up = poseFromMrpt(laser->sensorPose).linear().row(2);
+  if (!is<CObservation2DRangeScan>(observation)) return false;
+  const Eigen::Vector3d up = upInSensor(observation);
   return up.head<2>().cwiseAbs().maxCoeff() < std::sin(kLevel);
+}
+
+double laserTilt(const CObservation& observation) {
+  return std::acos(std::min(1.0, std::abs(upInSensor(observation).z())));
 }
 
 std::optional<Scan> scanFromObservation(const CObservation& observation, const std::string& label,
@@ -96,6 +117,7 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
   const Eigen::Isometry3f transform = base_T_sensor.cast<float>();
   if (!transform.matrix().allFinite())
     throw std::runtime_error("its sensor pose is not finite: the recording is damaged");
+  const Eigen::AlignedBox3f body = boxOf(options.body_box);
   const double max_range = std::min(options.max_range_m, returns->max_range_m);
 
   Scan scan;
@@ -109,7 +131,7 @@ std::optional<Scan> scanFromObservation(const CObservation& observation, const s
     // Written so that a range that is not a number fails; zero is the mark of a missing return.
     if (!(range > 0 && range >= options.min_range_m && range <= max_range)) continue;
     const Eigen::Vector3f in_base = transform * point;
-    if (!in_base.allFinite()) continue;
+    if (!in_base.allFinite() || body.contains(in_base)) continue;
     scan.points.push_back(in_base);
     if (has_intensity) scan.intensity.push_back(returns->intensity[i]);
     if (has_times) scan.time.push_back(returns->time[i]);

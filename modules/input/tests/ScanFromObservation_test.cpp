@@ -46,6 +46,37 @@ TEST(ScanFromObservation, CloudMovesToTheBaseFrame) {
   EXPECT_FALSE(scan->hasIntensity());
 }
 
+TEST(ScanFromObservation, TheRobotsOwnBodyIsLeftOut) {
+  auto map = mrpt::maps::CSimplePointsMap::Create();
+  for (const float x : {-2.0f, -0.6f, 0.0f, 0.6f, 2.0f}) map->insertPoint(x, 0.1f, -0.3f);
+  map->insertPoint(0.2f, 0.1f, 0.3f);  // above it
+  auto o = cloud(1, "lidar", 0);
+  o->pointcloud = map;
+  o->sensorPose = mrpt::poses::CPose3D(0.2, 0, 0.8, 0, 0, 0);
+  EXPECT_EQ(scanFromObservation(*o, "lidar", {})->size(), 6u);
+  ScanOptions options;
+  options.body_box = {0.5, 0.35, 0.9, -0.5, -0.35, 0};  // corners in any order, base frame
+  const auto scan = scanFromObservation(*o, "lidar", options);
+  ASSERT_EQ(scan->size(), 4u);
+  expectPoint(scan->points[0], -1.8f, 0.1f, 0.5f);
+  expectPoint(scan->points[1], 0.8f, 0.1f, 0.5f);
+  expectPoint(scan->points[2], 2.2f, 0.1f, 0.5f);
+  expectPoint(scan->points[3], 0.4f, 0.1f, 1.1f);
+}
+
+TEST(ScanFromObservation, TheTiltOfALaserIsThatOfItsPlane) {
+  auto o = laser(3, 5);
+  for (const double degrees : {0.0, 1.0, 25.0, 90.0}) {
+    const double angle = degrees * M_PI / 180;
+    for (const double upside_down : {0.0, M_PI})
+      for (const double yaw : {0.0, 2.0}) {
+        o.sensorPose = mrpt::poses::CPose3D(0, 0, 1, yaw, angle, upside_down);
+        EXPECT_NEAR(laserTilt(o), angle, 1e-6) << degrees;
+        EXPECT_EQ(isPlanarLaser(o), degrees < 2);
+      }
+  }
+}
+
 TEST(ScanFromObservation, IntensityStaysWithItsPoint) {
   auto map = mrpt::maps::CPointsMapXYZI::Create();
   map->insertPointRGB(0, 0, 0, 0.9f, 0, 0);  // a missing return

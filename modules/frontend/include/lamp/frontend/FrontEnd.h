@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ namespace lamp {
 
 class ApertureCheck;
 class OdometryChain;
+class PassedScans;
 class ScanMerger;
 class StandstillCheck;
 
@@ -73,6 +75,7 @@ class FrontEnd {
   std::optional<KeyNodePacket> processScan(const ScanParts& parts);
   bool placed(const ScanParts& parts, const Pose3& odom_T_base);
   void checkAperture(const ScanParts& parts);
+  void checkTilt(const InputObservation& part);
   void dropWithoutOdometry(double stamp);
   void leaveOut(double begin, double end, double sigma_m_per_s, double sigma_rad_per_s);
   bool planar() const;
@@ -105,7 +108,7 @@ class FrontEnd {
   std::optional<StampedPose> last_key_;
   std::optional<Pose3> last_scan_pose_;
   Path path_since_key_;
-  std::vector<StampedPose> passed_scans_;
+  const std::unique_ptr<PassedScans> passed_scans_;
   double last_stamp_ = 0;  ///< of the last scan, seconds, UTC
   /** Standard deviations of the motion since the last key node that nobody measured. */
   struct Unmeasured {
@@ -113,10 +116,11 @@ class FrontEnd {
   } unmeasured_;
   std::optional<Pose3> first_pose_;
   bool planar_lidar_ = true;
-  double median_range_m_ = 0;             ///< of the last keyed scan of a robot in the plane
-  std::optional<bool> gravity_believed_;  ///< by the first reading
-  double gravity_deviation_ = 0;          ///< of that from upright, radians
-  std::optional<Pose3> world_T_odom_;     ///< by the start pose
+  std::map<std::string, double> tilted_lasers_;  ///< by label, radians
+  double median_range_m_ = 0;                    ///< of the last keyed scan of a robot in the plane
+  std::optional<bool> gravity_believed_;         ///< by the first reading
+  double gravity_deviation_ = 0;                 ///< of that from upright, radians
+  std::optional<Pose3> world_T_odom_;            ///< by the start pose
   Counts counts_;
   double first_without_odometry_ = 0;  ///< stamp, seconds, UTC
 };

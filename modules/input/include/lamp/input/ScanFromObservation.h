@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lamp/core/KeyedScan.h"
 #include "lamp/core/Options.h"
@@ -15,6 +16,7 @@ struct ScanOptions {
   double min_range_m = 0.1;
   double max_range_m = 120.0;
   double laser_aperture_deg = 0;
+  std::vector<double> body_box;
 
   void visit(OptionVisitor& v);
 };
@@ -26,12 +28,16 @@ bool isLidar(const mrpt::obs::CObservation& observation);
 /** A 2D laser whose plane is level on the robot to within 2 degrees, either side up. */
 bool isPlanarLaser(const mrpt::obs::CObservation& observation);
 
+/** Angle between a sensor's x-y plane and the robot's, radians, 0 to pi/2. */
+double laserTilt(const mrpt::obs::CObservation& observation);
+
 /** Points of a lidar observation in the base frame, with the sensor as the one origin of the rays.
  *
  * Left out are points that are not finite, returns that the sensor marks as invalid, and ranges
- * outside the options' and the sensor's own limits. Intensity is 0 to 1 for lidars that give bytes,
- * else as recorded; empty where there is none. Times are seconds since the observation's stamp,
- * where the recording tells when each point was measured.
+ * outside the options' and the sensor's own limits, and what lies within the box of the robot's
+ * body. Intensity is 0 to 1 for lidars that give bytes, else as recorded; empty where there is
+ * none. Times are seconds since the observation's stamp, where the recording tells when each point
+ * was measured.
  *
  * \return none if the class is no lidar; a scan without points if it saw nothing.
  * \throws std::runtime_error if a cloud that is stored in a file of its own cannot be loaded, if
