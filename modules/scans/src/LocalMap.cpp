@@ -102,20 +102,46 @@ void LocalMap::forget(double travelled_m, const Vector3f& robot, double radius_m
   }
 }
 
-const LocalMap::Surface* LocalMap::surfaceNear(const Vector3f& query, float max_distance_m) {
+/** The query's own block first: what is found there spares most of the others. */
+LocalMap::MapPoint* LocalMap::nearest(const Vector3f& query, float max_distance_m,
+                                      uint32_t& changed_at) {
   MapPoint* nearest = nullptr;
-  uint32_t changed_at = 0;
   float least = max_distance_m * max_distance_m;
-  visitNear(query, max_distance_m, [&](MapPoint& point, const Block& block) {
-    const float squared = (point.position - query).squaredNorm();
-    if (squared >= least) return;
-    least = squared;
-    nearest = &point;
-    changed_at = block.changed_at;
-  });
-  if (!nearest) return nullptr;
-  if (nearest->fitted_at < changed_at) fit(*nearest);
-  return nearest->surface.normal.isZero() ? nullptr : &nearest->surface;
+  const auto look = [&](const Vector3f& at) {
+    const auto found = blocks_.find(packed(
+        static_cast<int64_t>(at.x()), static_cast<int64_t>(at.y()), static_cast<int64_t>(at.z())));
+    if (found == blocks_.end()) return;
+    for (MapPoint& point : found->second.points) {
+      const float squared = (point.position - query).squaredNorm();
+      if (squared >= least) continue;
+      least = squared;
+      nearest = &point;
+      changed_at = found->second.changed_at;
+    }
+  };
+  const Vector3f own = (query / block_m_).array().floor();
+  look(own);
+  const Vector3f reach =
+      planar_ ? Vector3f(max_distance_m, max_distance_m, 0) : Vector3f::Constant(max_distance_m);
+  const Vector3f low = ((query - reach) / block_m_).array().floor();
+  const Vector3f high = ((query + reach) / block_m_).array().floor();
+  for (float x = low.x(); x <= high.x(); ++x)
+    for (float y = low.y(); y <= high.y(); ++y)
+      for (float z = low.z(); z <= high.z(); ++z) {
+        const Vector3f at(x, y, z), corner = block_m_ * at;
+        const Vector3f inside =
+            query.cwiseMax(corner).cwiseMin(corner + Vector3f::Constant(block_m_));
+        if (at != own && (inside - query).squaredNorm() < least) look(at);
+      }
+  return nearest;
+}
+
+const LocalMap::Surface* LocalMap::surfaceNear(const Vector3f& query, float max_distance_m) {
+  uint32_t changed_at = 0;
+  MapPoint* const point = nearest(query, max_distance_m, changed_at);
+  if (!point) return nullptr;
+  if (point->fitted_at < changed_at) fit(*point);
+  return point->surface.normal.isZero() ? nullptr : &point->surface;
 }
 
 void LocalMap::fit(MapPoint& point) {

@@ -65,6 +65,7 @@ class LocalMap {
   uint64_t keyOf(const Eigen::Vector3f& point) const;
   template <class Visit>
   void visitNear(const Eigen::Vector3f& center, float radius, Visit&& visit);
+  MapPoint* nearest(const Eigen::Vector3f& query, float max_distance_m, uint32_t& changed_at);
   bool isFree(const Block& block, const Eigen::Vector3f& point) const;
   void fit(MapPoint& point);
   bool fitWithin(float radius, MapPoint& point);
