@@ -297,6 +297,32 @@ TEST(PartialOutputs, AMapThatCannotBeWrittenTakesNothingElseWithIt) {
   EXPECT_EQ(run.summary()["not_written"].size(), 1u);
 }
 
+TEST(MapsOnTheWay, AreWrittenAndLeaveTheLastOnesAsTheyWouldBe) {
+  const Experiment experiment;
+  SyntheticRobot robot;
+  robot.name = "A";
+  robot.route = shortRoute();
+  const std::string ini = experiment.file("one.ini", iniFor3d("OctoMap")),
+                    rawlog = experiment.rawlog("A.rawlog",
+                                               robot.record3d(BoxWorld::building(7)).objects);
+  for (const char* every : {"0", "2"}) {
+    const LampResult end = experiment.run(
+        {ini, rawlog, "--set", std::string("run.maps_every_key_nodes=") + every}, every);
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+  }
+  const FinishedRun at_end = experiment.result("0"), on_the_way = experiment.result("2");
+  const auto writes = [](const FinishedRun& run) {
+    return nlohmann::json::parse(
+               readFile(run.folder().timings()))["stages"]["maps.OctoMap"]["calls"]
+        .get<size_t>();
+  };
+  EXPECT_EQ(writes(at_end), 1u);
+  EXPECT_EQ(writes(on_the_way), 1 + on_the_way.keyNodes("A").size() / 2);
+  for (const char* extension : {".bt", ".ot"})
+    EXPECT_EQ(readFile(at_end.folder().mapStem(0) + extension),
+              readFile(on_the_way.folder().mapStem(0) + extension));
+}
+
 TEST_F(CloudOutputs, PictureAndTimingsAreThere) {
   EXPECT_THAT(readFile(run().folder().mapStem(0) + ".png"), testing::StartsWith("\x89PNG"));
   const auto timings = nlohmann::json::parse(readFile(run().folder().timings()));

@@ -1,7 +1,10 @@
 #include "lamp/maps/OctoMap.h"
 
+#include "DrivenGround.h"
 #include "MapPoints.h"
-#include "OctreeScanInserter.h"
+#include "OccupancyMap.h"
+#include "OctreeFile.h"
+#include "VoxelStates.h"
 #include "lamp/core/CloudHeader.h"
 #include "lamp/core/Files.h"
 
@@ -11,55 +14,46 @@ namespace lamp {
 
 namespace {
 
-void setSensorModel(const OctoMapOptions& options, octomap::OcTree& tree) {
-  tree.setProbHit(options.prob_hit);
-  tree.setProbMiss(options.prob_miss);
-  tree.setClampingThresMin(options.clamping_min);
-  tree.setClampingThresMax(options.clamping_max);
-  tree.setOccupancyThres(options.occupancy_threshold);
+void unite(const VoxelSetBlocks& more, VoxelSetBlocks& set) {
+  for (const auto& [key, bits] : more.blocks()) {
+    VoxelBits& target = set[key];
+    for (size_t word = 0; word < bits.words.size(); ++word) target.words[word] |= bits.words[word];
+  }
 }
 
-/** OctoMap's own writers have no place for comments, and print to the terminal. */
-void writeHeader(const octomap::OcTree& tree, const std::string& kind, const std::string& offset,
-                 std::ostream& file) {
-  file << "# Octomap OcTree " << kind << "\n";
-  if (!offset.empty()) file << "# " << offset << "\n";
-  file << "id OcTree\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
-}
-
-void writeLogOdds(octomap::OcTree& tree, const std::string& offset, std::ostream& file) {
-  writeHeader(tree, "file", offset, file);
-  tree.writeData(file);
-}
-
-void writeBonsai(octomap::OcTree& tree, const std::string& offset, std::ostream& file) {
-  tree.toMaxLikelihood();
-  tree.prune();
-  writeHeader(tree, "binary file", offset, file);
-  if (tree.size() > 0) tree.writeBinaryData(file);
+VoxelStates statesOf(const OccupancyCounts& counts, const ComponentMap& map,
+                     const OctoMapOptions& options) {
+  VoxelSetBlocks occupied = occupiedVoxels(counts);
+  DrivenGround driven;
+  if (options.driven_ground)
+    driven = drivenGround(map.tracks, occupied, {options.body_radius_m, options.body_height_m},
+                          options.resolution_m);
+  unite(driven.ground, occupied);
+  return classify(counts, occupied, driven.entered);
 }
 
 }  // namespace
 
 std::vector<std::string> OctoMap::exportMap(const ComponentMap& map, const std::string& stem) {
   checkMap(map);
-  octomap::OcTree tree(options_.resolution_m);
-  setSensorModel(options_, tree);
-  OctreeScanInserter inserter(tree, options_.max_range_m);
-  for (const MapKeyNode& key_node : map.key_nodes)
-    if (key_node.scan) inserter.insert(*key_node.scan, key_node.world_T_base);
-  tree.updateInnerOccupancy();
-  tree.prune();
-  if (inserter.raysOutOfBounds() > 0)
+  if (!occupancy_)
+    occupancy_ = std::make_shared<OccupancyMap>(
+        OccupancyMap::Options{options_.resolution_m, options_.max_range_m, options_.tolerance_m});
+  occupancy_->update(map);
+  if (occupancy_->raysOutOfBounds() > 0)
     MRPT_LOG_WARN_FMT(
         "%zu rays end beyond the range of an octree with voxels of %g m and are left out",
-        inserter.raysOutOfBounds(), options_.resolution_m);
+        occupancy_->raysOutOfBounds(), options_.resolution_m);
 
+  const VoxelStates states = statesOf(occupancy_->counts(), map, options_);
   const std::string log_odds = stem + ".ot", binary = stem + ".bt",
                     offset = offsetComment(map.world_p_origin);
-  writeBinaryFile(log_odds, [&](std::ostream& file) { writeLogOdds(tree, offset, file); });
-  // Second, because it turns the log-odds in the tree into certain values.
-  writeBinaryFile(binary, [&](std::ostream& file) { writeBonsai(tree, offset, file); });
+  writeBinaryFile(log_odds, [&](std::ostream& file) {
+    writeLogOdds(states, options_.resolution_m, offset, file);
+  });
+  writeBinaryFile(binary, [&](std::ostream& file) {
+    writeBonsai(states, options_.resolution_m, offset, file);
+  });
   return {log_odds, binary};
 }
 

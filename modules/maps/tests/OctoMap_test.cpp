@@ -2,22 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <octomap/OcTree.h>
-
 #include "TestMaps.h"
+#include "TestOctrees.h"
 
 namespace lamp {
 namespace {
 
 using testing::HasSubstr;
-
-enum class Cell { kUnknown, kFree, kOccupied };
-
-Cell cellAt(const octomap::OcTree& tree, double x, double y, double z) {
-  const octomap::OcTreeNode* node = tree.search(x, y, z);
-  if (!node) return Cell::kUnknown;
-  return tree.isNodeOccupied(node) ? Cell::kOccupied : Cell::kFree;
-}
 
 /** A wall across x, one metre high and four wide, as points 5 cm apart. */
 std::vector<Eigen::Vector3f> wall(float x) {
@@ -25,13 +16,6 @@ std::vector<Eigen::Vector3f> wall(float x) {
   for (float y = -2; y <= 2; y += 0.05f)
     for (float z = -0.5f; z <= 0.5f; z += 0.05f) points.push_back({x, y, z});
   return points;
-}
-
-std::unique_ptr<octomap::OcTree> readLogOdds(const std::string& path) {
-  std::unique_ptr<octomap::AbstractOcTree> tree(octomap::AbstractOcTree::read(path));
-  auto* occupancy = dynamic_cast<octomap::OcTree*>(tree.get());
-  if (occupancy) tree.release();
-  return std::unique_ptr<octomap::OcTree>(occupancy);
 }
 
 std::vector<std::string> write(const ComponentMap& map, const OctoMapOptions& options = {}) {
@@ -174,6 +158,57 @@ TEST(OctoMap, TheBinaryFileHoldsWhatOctomapItselfWouldWrite) {
   ASSERT_TRUE(tree->writeBinary(expected));
   const auto data = [](const std::string& file) { return file.substr(file.find("\nid OcTree\n")); };
   EXPECT_EQ(data(bytesOf(paths[1])), data(expected.str()));
+}
+
+TEST(OctoMap, TheLogOddsFileIsWhatOctomapItselfWouldWrite) {
+  TestMap test;
+  test.add(0, planarPose(1, 2, 3), makeScan(wall(4)));
+  test.add(0, planarPose(2, 2, 3), makeScan(wall(5)));
+  const std::string path = write(test.map).at(0);
+  const auto tree = readLogOdds(path);
+  ASSERT_TRUE(tree);
+  const size_t nodes = tree->size();
+  tree->updateInnerOccupancy();
+  tree->prune();
+  EXPECT_EQ(tree->size(), nodes);
+  std::ostringstream expected;
+  ASSERT_TRUE(tree->write(expected));
+  const auto data = [](const std::string& file) { return file.substr(file.find("\nid OcTree\n")); };
+  EXPECT_EQ(data(bytesOf(path)), data(expected.str()));
+}
+
+TEST(OctoMap, OnePointIsOneVoxelAndAWay) {
+  TestMap test;
+  test.add(0, Pose3(Eigen::Translation3d(0.1, 0.1, 0.1)), makeScan({{4, 0, 0}}));
+  const auto tree = readLogOdds(write(test.map).at(0));
+  ASSERT_TRUE(tree);
+  EXPECT_EQ(cellAt(*tree, 4.1, 0.1, 0.1), Cell::kOccupied);
+  EXPECT_EQ(cellAt(*tree, 1.1, 0.1, 0.1), Cell::kFree);
+  EXPECT_EQ(cellAt(*tree, 1.1, 0.3, 0.1), Cell::kUnknown);
+}
+
+TEST(OctoMap, AMillionPointsAreAScan) {
+  TestMap test;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 1000; ++i)
+    for (int k = 0; k < 1000; ++k)
+      points.push_back(
+          {5.1f, 0.01f * static_cast<float>(i) - 5, 0.01f * static_cast<float>(k) - 5});
+  test.add(0, Pose3(Eigen::Translation3d(0.01, 0.01, 0.01)), makeScan(points));
+  const auto tree = readLogOdds(write(test.map).at(0));
+  ASSERT_TRUE(tree);
+  for (double y = -4.9; y < 5; y += 0.2) EXPECT_EQ(cellAt(*tree, 5.11, y, 1.1), Cell::kOccupied);
+  for (double x = 0.1; x < 4.8; x += 0.2) EXPECT_EQ(cellAt(*tree, x, 0.1, 0.1), Cell::kFree);
+}
+
+TEST(OctoMap, FarCoordinatesStandInTheOffset) {
+  TestMap near, far;
+  far.map.world_p_origin = {100000, -100000, 0};
+  for (TestMap* test : {&near, &far}) test->add(0, planarPose(1, 2, 3), makeScan(wall(4)));
+  const auto data = [](const std::string& file) { return file.substr(file.find("\nid OcTree\n")); };
+  const auto near_paths = write(near.map), far_paths = write(far.map);
+  for (size_t i = 0; i < 2; ++i)
+    EXPECT_EQ(data(bytesOf(near_paths[i])), data(bytesOf(far_paths[i])));
 }
 
 TEST(OctoMap, RefusesInvalidMapsAndMissingFolders) {

@@ -15,7 +15,6 @@
 #include "lamp/core/GraphFiles.h"
 #include "lamp/core/Trajectory.h"
 #include "lamp/maps/KeyNodeRawlog.h"
-#include "lamp/maps/MapExporter.h"
 
 namespace lamp {
 
@@ -116,10 +115,9 @@ ComponentMap makeMap(const RunResult& result, const Component& component) {
   return map;
 }
 
-void writeMaps(const RunFolder& folder, const RunResult& result, mrpt::system::CTimeLogger& timer,
+void writeMaps(const RunFolder& folder, const RunResult& result, const MapExporters& exporters,
+               const std::vector<Component>& components, mrpt::system::CTimeLogger& timer,
                const WriteProgress& progress, Steps& steps) {
-  const auto components = result.base_station.graph().components();
-  const auto exporters = result.config.make<MapExporter>();
   size_t written = 0;
   for (size_t rank = 0; rank < components.size(); ++rank) {
     const ComponentMap map = makeMap(result, components[rank]);
@@ -136,8 +134,21 @@ void writeMaps(const RunFolder& folder, const RunResult& result, mrpt::system::C
 
 }  // namespace
 
+std::vector<std::string> writeMapSoFar(const RunFolder& folder, const RunResult& result,
+                                       const MapExporters& exporters,
+                                       mrpt::system::CTimeLogger& timer) {
+  folder.createSubfolders();
+  auto components = result.base_station.graph().components();
+  components.resize(std::min<size_t>(components.size(), 1));
+  Steps steps;
+  writeMaps(
+      folder, result, exporters, components, timer, [](double, const std::string&) {}, steps);
+  return steps.failures();
+}
+
 std::vector<std::string> writeRun(const RunFolder& folder, const RunResult& result,
-                                  mrpt::system::CTimeLogger& timer, const WriteProgress& progress) {
+                                  const MapExporters& exporters, mrpt::system::CTimeLogger& timer,
+                                  const WriteProgress& progress) {
   folder.createSubfolders();
   Steps steps;
   {
@@ -147,7 +158,8 @@ std::vector<std::string> writeRun(const RunFolder& folder, const RunResult& resu
     writeTrajectories(folder, result, world, steps);
     writeKeyNodes(folder, result, steps);
   }
-  writeMaps(folder, result, timer, progress, steps);
+  writeMaps(folder, result, exporters, result.base_station.graph().components(), timer, progress,
+            steps);
   steps.take("summary", [&] {
     writeTextFile(folder.summary(), summarize(result, steps.failures()).dump(2) + "\n");
   });

@@ -106,6 +106,10 @@ void InputOptions::visit(OptionVisitor& v) {
 
 void RunOptions::visit(OptionVisitor& v) {
   v("seed", seed, "", "seed of every random choice", kNotNegative);
+  v("maps_every_key_nodes", maps_every_key_nodes, "",
+    "writes the maps of the largest component each time that so many key nodes have come, for "
+    "planners and viewers; 0 writes maps at the end only",
+    kNotNegative);
 }
 
 void BaseStationOptions::visit(OptionVisitor& v) {

@@ -123,6 +123,11 @@ bool SlamRun::actionDue(const BaseStation& base) const {
          job_.actions[next_action_].key_nodes <= base.tracks().packets().size();
 }
 
+bool SlamRun::mapsDue(const BaseStation& base) const {
+  const int every = config_.run.maps_every_key_nodes;
+  return every > 0 && base.tracks().packets().size() % static_cast<size_t>(every) == 0;
+}
+
 void SlamRun::act(BaseStation& base, const RobotTable& robots, bool all) {
   for (; all ? next_action_ < job_.actions.size() : actionDue(base); ++next_action_) {
     const OperatorAction& action = job_.actions[next_action_];
@@ -145,6 +150,7 @@ SlamRun::Outcome SlamRun::run() {
   BaseStation base_station(local_.makeBaseStationSetup(), timer);
   base_station.setMinLoggingLevel(getMinLoggingLevel());
 
+  const MapExporters exporters = config_.make<MapExporter>();
   FrontEndTeam team(local_, queue, measureApertures(local_, interrupted_));
   {
     Progress progress;
@@ -153,13 +159,19 @@ SlamRun::Outcome SlamRun::run() {
     tbb::task_arena arena(job_.threads);
     arena.execute([&] {
       while (const auto message = interrupted_ ? std::nullopt : delivery.receive()) {
-        if (const auto* packet = std::get_if<KeyNodePacket>(&*message))
+        const auto* packet = std::get_if<KeyNodePacket>(&*message);
+        if (packet)
           base_station.receive(*packet, interrupted_);
         else
           base_station.receive(std::get<RobotEnd>(*message));
         if (actionDue(base_station)) {
           const auto paused = front_end.pause();
           act(base_station, robots, false);
+        }
+        if (packet && mapsDue(base_station)) {
+          const auto paused = front_end.pause();
+          const RunResult so_far{config_, robots, base_station, {}, {}, false, world_p_origin_};
+          warn(writeMapSoFar(folder, so_far, exporters, timer), "map so far: ");
         }
         if (progress.due())
           progress.show(front_end.progress() * delivery.share(), describeLoops(base_station));
@@ -187,7 +199,7 @@ SlamRun::Outcome SlamRun::run() {
   {
     Progress progress;
     outcome.not_written =
-        writeRun(folder, result, timer,
+        writeRun(folder, result, exporters, timer,
                  [&](double share, const std::string& step) { progress.show(share, step); });
   }
   try {

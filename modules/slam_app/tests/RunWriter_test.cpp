@@ -28,7 +28,8 @@ struct WrittenRun {
     robots.add("spot");
     Team().sendTo(station.base);
     const RunFolder folder = RunFolder::create(root);
-    not_written = writeRun(folder, {station.config, robots, station.base, {}, {}}, station.timer,
+    not_written = writeRun(folder, {station.config, robots, station.base, {}, {}},
+                           station.config.make<MapExporter>(), station.timer,
                            [](double, const std::string&) {});
   }
   bool has(const std::string& file) const { return std::filesystem::exists(root + "/" + file); }

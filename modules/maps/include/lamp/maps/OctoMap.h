@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -7,36 +8,37 @@
 
 namespace lamp {
 
+class OccupancyMap;
+
 struct OctoMapOptions {
   double resolution_m = 0.2;
   double max_range_m = 15.0;
-  double prob_hit = 0.7;
-  double prob_miss = 0.4;
-  double clamping_min = 0.12;
-  double clamping_max = 0.97;
-  double occupancy_threshold = 0.5;
+  double tolerance_m = 0.0;
+  bool driven_ground = true;
+  double body_radius_m = 0.5;
+  double body_height_m = 0.8;
 
   void visit(OptionVisitor& v) {
-    // 0 and 1 are left out: they have no finite log-odds.
-    constexpr Range kLikely{0.5, 0.999}, kUnlikely{0.001, 0.5}, kBetween{0.001, 0.999};
     v("resolution_m", resolution_m, "m", "voxel size", kPositive);
     v("max_range_m", max_range_m, "m",
       "longer rays are cut at this range: they mark free space but no obstacle", kPositive);
-    v("prob_hit", prob_hit, "", "occupancy probability of a voxel after one hit", kLikely);
-    v("prob_miss", prob_miss, "", "occupancy probability of a voxel after one pass", kUnlikely);
-    v("clamping_min", clamping_min, "", "lower bound on the occupancy probability", kUnlikely);
-    v("clamping_max", clamping_max, "", "upper bound on the occupancy probability", kLikely);
-    v("occupancy_threshold", occupancy_threshold, "",
-      "voxels at or above this probability are occupied in the .bt file", kBetween);
+    v("tolerance_m", tolerance_m, "m",
+      "when the map is written again, scans of which no point moved farther stay as they are",
+      kNotNegative);
+    v("driven_ground", driven_ground,
+      "the ground under robots' ways is occupied and their bodies' space free, seen or not");
+    v("body_radius_m", body_radius_m, "m", "radius of a robot's body, for driven_ground",
+      kPositive);
+    v("body_height_m", body_height_m, "m",
+      "height of a robot's body above the ground, for driven_ground", kPositive);
   }
 };
 
-/** `<stem>.ot` (log-odds) and `<stem>.bt` (occupied, free, unknown): an occupancy octree after
- * Hornung et al., "OctoMap", Autonomous Robots 2013. Frame of the map,
- * metres; its offset from the world in a line `# offset X Y Z`.
+/** `<stem>.ot` (log-odds) and `<stem>.bt` (occupied, free, unknown): occupancy in the format of
+ * Hornung et al., "OctoMap", Autonomous Robots 2013. Frame of the map, metres; its offset from the
+ * world in a line `# offset X Y Z`. The model: docs/maps.md.
  *
- * Each scan changes a voxel once; where one ray of the scan ends and others pass, the end wins.
- * Rays start at the origin of the sensor that saw the point. */
+ * Keeps its evidence: exporting a map again costs what changed since. */
 class OctoMap : public MapExporter {
   DEFINE_MRPT_OBJECT(OctoMap, lamp)
 
@@ -49,6 +51,7 @@ class OctoMap : public MapExporter {
 
  private:
   OctoMapOptions options_;
+  std::shared_ptr<OccupancyMap> occupancy_;
 };
 
 }  // namespace lamp

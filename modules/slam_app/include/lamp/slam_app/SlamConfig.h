@@ -44,6 +44,7 @@ struct RegistrationOptions {
 
 struct RunOptions {
   int seed = 1;
+  int maps_every_key_nodes = 0;
 
   void visit(OptionVisitor& v);
 };

@@ -40,6 +40,8 @@ class SlamRun : public mrpt::system::COutputLogger {
 
  private:
   bool actionDue(const BaseStation& base) const;
+  /** Whether the newest key node is one after which maps are written. */
+  bool mapsDue(const BaseStation& base) const;
   /** Does the actions that are due, or all. */
   void act(BaseStation& base, const RobotTable& robots, bool all);
   void warn(const std::vector<std::string>& warnings, const std::string& prefix = "");

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+
+namespace lamp {
+
+/** A voxel by its place in a grid through the origin: floor(coordinate / edge). */
+using VoxelIndex = Eigen::Vector3i;
+
+/** Voxels are kept in cubes of this many a side, so that one layer is the bits of one word. */
+constexpr int kBlockSide = 8;
+constexpr size_t kBlockVoxels = 512;
+/** Voxels from the origin to the end of the grid: OctoMap's keys have 16 bits. */
+constexpr int kGridReach = 1 << 15;
+
+/** Names a block by its place on a Z-order curve, as octrees walk them; 13 bits for each axis, x
+ * lowest. */
+using BlockKey = uint64_t;
+
+BlockKey blockOf(const VoxelIndex& voxel);
+/** The voxel with the least coordinates of the block. */
+VoxelIndex firstVoxelOf(BlockKey block);
+
+inline VoxelIndex voxelAt(const Eigen::Vector3d& point_in_voxels) {
+  return point_in_voxels.array().floor().cast<int>();
+}
+inline bool isInGrid(const VoxelIndex& voxel) {
+  return (voxel.array() >= -kGridReach).all() && (voxel.array() < kGridReach).all();
+}
+
+/** Place of a voxel within its block: x fastest, z slowest. */
+inline size_t placeInBlock(const VoxelIndex& voxel) {
+  constexpr int kMask = kBlockSide - 1;
+  return static_cast<size_t>(((voxel.z() & kMask) * kBlockSide + (voxel.y() & kMask)) * kBlockSide +
+                             (voxel.x() & kMask));
+}
+inline VoxelIndex fromPlaceInBlock(size_t place) {
+  const auto i = static_cast<int>(place);
+  return {i % kBlockSide, i / kBlockSide % kBlockSide, i / kBlockSide / kBlockSide};
+}
+
+/** One bit for each voxel of a block, by its place. */
+struct VoxelBits {
+  std::array<uint64_t, kBlockSide> words{};
+
+  static constexpr uint64_t bit(size_t place) { return uint64_t{1} << (place % 64); }
+  void set(size_t place) { words[place / 64] |= bit(place); }
+  void clear(size_t place) { words[place / 64] &= ~bit(place); }
+  bool test(size_t place) const { return (words[place / 64] & bit(place)) != 0; }
+};
+
+/** A set of voxels. */
+class VoxelSetBlocks {
+ public:
+  using Blocks = std::unordered_map<BlockKey, VoxelBits>;
+
+  VoxelBits& operator[](BlockKey block) { return blocks_[block]; }
+  const VoxelBits* find(BlockKey block) const {
+    const auto found = blocks_.find(block);
+    return found == blocks_.end() ? nullptr : &found->second;
+  }
+  bool test(const VoxelIndex& voxel) const {
+    const VoxelBits* bits = isInGrid(voxel) ? find(blockOf(voxel)) : nullptr;
+    return bits && bits->test(placeInBlock(voxel));
+  }
+  const Blocks& blocks() const { return blocks_; }
+
+ private:
+  Blocks blocks_;
+};
+
+}  // namespace lamp
