@@ -14,9 +14,10 @@ using Eigen::Vector3d;
 constexpr double kAboveBase = 0.4, kBelowBase = 2.0;
 /** So far from the plane that the robot stood on the ground may be uneven, metres. */
 constexpr double kUneven = 0.3;
-/** Ground is taken to be at least this thick, and, where it was seen, to reach so far around the
- * body, metres: poses are not exact, and the true ground shall be known. */
-constexpr double kThickness = 0.6, kAround = 0.8;
+/** Ground is taken to be at least this thick, voxels, and, where it was seen, to reach so far
+ * around the body, metres: poses are not exact, and the true ground shall be known. */
+constexpr int kThickness = 3;
+constexpr double kAround = 0.8;
 /** Poses nearer to each other than this many voxels say the same. */
 constexpr double kSameVoxels = 0.5;
 
@@ -90,8 +91,7 @@ class Stamp {
                                      floorOf((ground_m - kUneven) / voxel_m_));
     if (!seen && !under_body) return;
     const int top = seen.value_or(floorOf(ground_m / voxel_m_));
-    const int thick = std::max(1, static_cast<int>(std::round(kThickness / voxel_m_)));
-    for (int z = top; z > top - thick; --z) set(column.at(z), driven_.ground);
+    for (int z = top; z > top - kThickness; --z) set(column.at(z), driven_.ground);
     if (!under_body) return;
     for (int z = top + 1; z <= floorOf((ground_m + body_.height_m) / voxel_m_); ++z)
       set(column.at(z), driven_.entered);

@@ -66,7 +66,8 @@ TEST(RunWriter, AFileThatCannotBeWrittenTakesNothingElseWithIt) {
   robots.add("spot");
   Team().sendTo(station.base);
   const auto failures = writeRun(folder, {station.config, robots, station.base, {}, {}},
-                                 station.timer, [](double, const std::string&) {});
+                                 station.config.make<MapExporter>(), station.timer,
+                                 [](double, const std::string&) {});
   EXPECT_THAT(failures, ElementsAre(HasSubstr("graph.g2o'"), HasSubstr("husky.tum'")));
   for (const char* file :
        {"graph.graph", "trajectories/husky.keyframes.tum", "trajectories/spot.tum", "summary.json"})
