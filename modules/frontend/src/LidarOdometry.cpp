@@ -51,8 +51,9 @@ constexpr double kSigmas = 3.0;
 /** Scans in a row that contradict another source before the lidar is believed: a scan taken in a
  * fast turn may err, and nothing is lost, as the next one is registered to the map, too. */
 constexpr int kBelieved = 3;
-/** A scan that fits matches at least this part of what scans usually do. */
-constexpr double kUsualPart = 0.9;
+/** A scan that matches so much need not be sought elsewhere, if that is this part of what scans
+ * usually do. One that fits better without the other source comes nearer to that. */
+constexpr double kGoodShare = 0.5, kGoodPart = 0.8, kUsualPart = 0.9;
 constexpr double kShareMemory = 0.05;
 /** After so many scans that match nothing the map is begun anew. */
 constexpr size_t kLostForGood = 10;
@@ -370,9 +371,10 @@ LidarOdometry::Located LidarOdometry::locate(const FilteredScan& scan, const Mot
   const Vector6d sigmas = P.diagonal().cwiseSqrt();
   const double error =
       kSigmas * (sigmas.head<3>().maxCoeff() + sigmas.tail<3>().maxCoeff() * radiusOf(scan.points));
-  const ScanToMapResult found =
-      nearby ? registerToMap(scan.points, *map_, *nearby, 0)
-             : searchInMap(scan, predicted, error, anywhere ? reference_.get() : nullptr, *map_);
+  const double good_share = std::max(kGoodShare, kGoodPart * usual_share_);
+  const ScanToMapResult found = nearby ? registerToMap(scan.points, *map_, *nearby, 0)
+                                       : searchInMap(scan, predicted, error, good_share,
+                                                     anywhere ? reference_.get() : nullptr, *map_);
   located.registered = found.map_T_scan;
   located.matched_share = found.matched_share;
   located.tracked = found.converged && found.matched_share >= options.min_matched_share;

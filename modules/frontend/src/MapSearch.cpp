@@ -36,14 +36,14 @@ std::vector<Pose3> starts(const FilteredScan& scan, const Pose3& predicted,
 }  // namespace
 
 ScanToMapResult searchInMap(const FilteredScan& scan, const Pose3& predicted, double error_m,
-                            const LocatedScan* reference, LocalMap& map) {
+                            double good_share, const LocatedScan* reference, LocalMap& map) {
   ScanToMapResult best = registerToMap(scan.points, map, predicted, std::min(kNearM, error_m));
   const auto look = [&](const Pose3& start, double error) {
     const ScanToMapResult other = registerToMap(scan.points, map, start, error);
     if (other.converged && (!best.converged || other.matched_share > best.matched_share))
       best = other;
   };
-  const auto good = [&] { return best.converged && best.matched_share >= kGoodShare; };
+  const auto good = [&] { return best.converged && best.matched_share >= good_share; };
   if (!good() && error_m > kNearM) look(predicted, std::min(kMaxErrorM, error_m));
   if (!good() && reference && error_m > kNearM)
     for (const Pose3& start : starts(scan, predicted, *reference)) look(start, kNearM);

@@ -15,15 +15,13 @@ struct LocatedScan {
   std::vector<Eigen::Vector3f> points;  ///< base frame, metres
 };
 
-/** A scan that matches so great a part of the map need not be sought elsewhere. */
-constexpr double kGoodShare = 0.5;
-
 /** Registers a scan to a local map: from nearby first, as what lies farther off only confuses where
  * the prediction is good; where that does not suffice, with more and more effort.
  * \param error_m how far points may lie from where the prediction puts them.
+ * \param good_share a scan of which this share matches need not be sought elsewhere.
  * \param reference the last scan that matched; where the prediction fails, the scan is sought
  * anywhere about it. None: only about the prediction. */
 ScanToMapResult searchInMap(const FilteredScan& scan, const Pose3& predicted, double error_m,
-                            const LocatedScan* reference, LocalMap& map);
+                            double good_share, const LocatedScan* reference, LocalMap& map);
 
 }  // namespace lamp
