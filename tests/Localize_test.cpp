@@ -110,6 +110,14 @@ TEST_F(Localize, TheTrajectoryInTheSurveysFrame) {
                              HasSubstr("of their points lie on the survey")));
 }
 
+TEST_F(Localize, OneRobotsTrajectoryMayBeAFile) {
+  const std::string file = experiment_.path("one.tum");
+  const LampResult end =
+      runLocalize({surveyFile(), rawlog_, "--config", ini(start_), "--out", file});
+  ASSERT_EQ(end.exit_code, 0) << end.err;
+  EXPECT_LT(rms(readTum(file)), 0.02);
+}
+
 TEST_F(Localize, SurveysInANationalGrid) {
   const Eigen::Vector3d shift(445123, 4477456, 650);
   Pose3 start = start_;

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -49,8 +50,9 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("rawlogs", arguments.rawlogs, "Recordings, one or several robots")
       ->type_name("RAWLOG");
   app.add_option("--out", arguments.out,
-                 "Folder for <robot>.tum, one a robot, in the survey's frame; new or empty")
-      ->type_name("DIR")
+                 "Folder for <robot>.tum, one a robot, in the survey's frame, new or empty; or, of "
+                 "one robot, the file itself")
+      ->type_name("DIR|FILE.tum")
       ->required();
   app.add_option("--config", arguments.config,
                  "Experiment file (see ini/), for start poses among other things; without, the "
@@ -167,9 +169,18 @@ void localize(RawlogSource& source, FrontEndTeam& team, const TeamLocalizer& loc
   team.finish();
 }
 
-/** \return the summary. \throws std::runtime_error if no robot has a trajectory. */
-std::string write(const RunFolder& folder, const RobotTable& table,
+/** `--out` names the file of one robot rather than a folder. */
+bool isTumFile(const std::string& out) {
+  return std::filesystem::path(out).extension() == ".tum";
+}
+
+/** \return the summary. \throws std::runtime_error if no robot has a trajectory, or if several have
+ * one and `out` is a file. */
+std::string write(const std::string& out, const RobotTable& table,
                   const std::map<RobotId, LocalizedRobot>& robots) {
+  if (isTumFile(out) && robots.size() > 1)
+    throw std::runtime_error("'" + out + "' is for one robot, and the recordings hold " +
+                             std::to_string(robots.size()) + ": give --out a folder");
   std::string summary, missing;
   for (const auto& [id, robot] : robots) {
     const std::string& name = table.name(id);
@@ -177,7 +188,7 @@ std::string write(const RunFolder& folder, const RobotTable& table,
       missing += explain(name, robot);
       continue;
     }
-    writeTextFile(folder.root() + "/" + name + ".tum", toTum(trajectoryOf(robot)));
+    writeTextFile(isTumFile(out) ? out : out + "/" + name + ".tum", toTum(trajectoryOf(robot)));
     summary += describe(name, robot);
   }
   if (robots.empty())
@@ -192,7 +203,7 @@ void run(const Arguments& arguments) {
   const SlamConfig config = readConfig(arguments);
   RobotTable robots;
   RawlogSource source(config.input.rawlogs, config.robots, robots);
-  const RunFolder folder = RunFolder::create(arguments.out);
+  if (!isTumFile(arguments.out)) RunFolder::create(arguments.out);
   Survey survey = readSurvey(arguments.survey);
   const SlamConfig local = inLocalFrame(config, survey.world_p_origin);
   requireStartsNear(survey, local);
@@ -202,7 +213,7 @@ void run(const Arguments& arguments) {
   warn(source.warnings());
   for (const FrontEndReport& report : team.reports())
     warn(report.warnings, "robot '" + robots.name(report.robot) + "': ");
-  std::cout << write(folder, robots, localizer.robots());
+  std::cout << write(arguments.out, robots, localizer.robots());
   if (interrupted) std::cout << "Interrupted: this is what was localised up to that point.\n";
 }
 
