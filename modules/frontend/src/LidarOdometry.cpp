@@ -242,11 +242,9 @@ Pose3 LidarOdometry::track(double stamp, const ScanMotion& known, FilteredScan& 
     return Pose3::Identity();
   }
   Located best = locateBy(stamp, known, scan);
-  if (known.turn) {
-    if (!best.tracked || contradicts(*known.turn, best)) {
-      const Located without = locateBy(stamp, {known.recorded, std::nullopt}, scan);
-      if (without.tracked && without.matched_share >= best.matched_share) best = without;
-    }
+  if (known.turn && (!best.tracked || contradicts(*known.turn, best))) {
+    const Located without = locateWithoutGyros(stamp, known, scan);
+    if (without.tracked && without.matched_share >= best.matched_share) best = without;
   }
   seen_.reset();
   if (best.tracked) seen_ = orientationBy(best.registered, best.information);
@@ -261,6 +259,12 @@ bool LidarOdometry::contradicts(const MeasuredRotation& turn, const Located& loc
   if (!seen || !seen_) return false;
   return contradict(turn, {seen_->rotation.transpose() * seen->rotation,
                            std::hypot(seen_->sigma_rad, seen->sigma_rad)});
+}
+
+LidarOdometry::Located LidarOdometry::locateWithoutGyros(double stamp, const ScanMotion& known,
+                                                         const FilteredScan& scan) {
+  if (known.recorded) return locate(scan, recorded_weight_.weighed(*known.recorded), false);
+  return locateAlone(stamp, std::nullopt, scan, true);
 }
 
 LidarOdometry::Located LidarOdometry::locateBy(double stamp, const ScanMotion& known,

@@ -79,6 +79,7 @@ class LidarOdometry : public ScanOdometry {
   Located locate(const FilteredScan& scan, const MotionPrior& motion, bool anywhere,
                  const std::optional<Pose3>& nearby = {});
   Located locateBy(double stamp, const ScanMotion& known, const FilteredScan& scan);
+  Located locateWithoutGyros(double stamp, const ScanMotion& known, const FilteredScan& scan);
   Located locateAlone(double stamp, const std::optional<MeasuredRotation>& turn,
                       const FilteredScan& scan, bool anywhere);
   Located settle(double stamp, const ScanMotion& known, const FilteredScan& scan,
