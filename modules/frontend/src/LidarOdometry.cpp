@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "GyroRotation.h"
+#include "MapLeaf.h"
 #include "MapSearch.h"
 #include "Undistortion.h"
 #include "lamp/core/Csv.h"
-#include "lamp/core/KdTree.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(ScanOdometry, lamp::OdometrySource, lamp)
 IMPLEMENTS_MRPT_OBJECT(LidarOdometry, lamp::ScanOdometry, lamp)
@@ -25,8 +25,6 @@ constexpr double kKeptS = 60.0;
 /** A stamp so near a scan has the scan's pose, about. */
 constexpr double kNearS = 0.5;
 
-/** The map's points lie as far apart as the first scan's, within limits. */
-constexpr float kLeastLeafM = 0.1f, kLeastPlanarLeafM = 0.05f, kMostLeafM = 0.5f;
 /** What was last seen so far back is forgotten: by then odometry may have drifted by more than what
  * a scan can be registered from. */
 constexpr double kRememberedM = 100.0;
@@ -71,25 +69,6 @@ float farthest(const std::vector<Eigen::Vector3f>& points) {
   float most = 0;
   for (const Eigen::Vector3f& point : points) most = std::max(most, point.squaredNorm());
   return std::sqrt(most);
-}
-
-/** How far apart the scan's points lie on surfaces, median, within limits: rings of a lidar are
- * dense along and far from one another, so more than the nearest neighbour counts. */
-float leafFor(const FilteredScan& scan) {
-  const size_t neighbors = scan.planar ? 2 : 6;
-  const float spacings = scan.planar ? 1.0f : 2.2f;  // that the farthest of them lies off
-  const KdTree tree(scan.points);
-  std::vector<float> distances;
-  std::vector<uint32_t> nearest;
-  for (const Eigen::Vector3f& point : scan.points) {
-    tree.nearest(point, neighbors + 1, nearest);
-    if (nearest.size() == neighbors + 1)
-      distances.push_back((scan.points[nearest.back()] - point).norm() / spacings);
-  }
-  if (distances.empty()) return kMostLeafM;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return std::clamp(*middle, scan.planar ? kLeastPlanarLeafM : kLeastLeafM, kMostLeafM);
 }
 
 /** The scan as another motion during its sweep makes it. */

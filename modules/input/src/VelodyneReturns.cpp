@@ -1,9 +1,9 @@
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "SensorReturns.h"
 #include "VelodyneModel.h"
+#include "lamp/core/Median.h"
 
 namespace lamp {
 namespace {
@@ -30,11 +30,8 @@ struct BlockOrder {
 };
 
 /** The median, as a lidar with a limited field of view jumps from its end to its begin. */
-double medianStep(std::vector<int>& steps) {
-  if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<long>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle * kAzimuthUnit_rad;
+double medianStep(const std::vector<int>& steps) {
+  return steps.empty() ? 0 : medianOf(steps) * kAzimuthUnit_rad;
 }
 
 BlockOrder orderOf(const Packet& packet) {
