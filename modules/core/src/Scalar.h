@@ -15,9 +15,9 @@ struct Scalar {
   template <class T>
   static constexpr Scalar of() {
     return {sizeof(T), [](const char* bytes) {
-              T value;
-              std::memcpy(&value, bytes, sizeof value);
-              return static_cast<double>(value);
+              T number;
+              std::memcpy(&number, bytes, sizeof number);
+              return static_cast<double>(number);
             }};
   }
 
