@@ -12,7 +12,8 @@ namespace lamp {
 
 namespace {
 
-/** Each makes the solution surer, and so lets more in; hardly any after the first few. */
+/** Each round makes the solution more certain and so lets in more loops; hardly any after the first
+ * few. */
 constexpr int kMaxReadmissions = 5;
 
 PoseGraph withLooserOdometry(PoseGraph graph, double scale) {
@@ -21,7 +22,8 @@ PoseGraph withLooserOdometry(PoseGraph graph, double scale) {
   return graph;
 }
 
-/** \param first of which the other is a repetition; what is no loop is never rejected. */
+/** Gives a loop the verdict of the edge that it repeats, or keeps it if that edge is never
+ * rejected. */
 void judgeAlike(EdgeIndex edge, EdgeIndex first, OptimizationResult& result) {
   const auto verdictOf = [&](EdgeIndex e) {
     return std::lower_bound(result.loops.begin(), result.loops.end(), e,
@@ -35,7 +37,7 @@ void judgeAlike(EdgeIndex edge, EdgeIndex first, OptimizationResult& result) {
 
 }  // namespace
 
-/** Loops that wait come in as the solution without them bears them out. */
+/** Waiting loops are admitted once the solution without them bears them out. */
 OptimizationResult BackEnd::optimize(const PoseGraph& graph, Admission admission) const {
   OptimizationResult result = optimizer->optimize(graph, admission.admitted);
   for (int round = 0; round < kMaxReadmissions && result.report.usable; ++round) {

@@ -14,13 +14,13 @@ namespace lamp {
 
 namespace {
 
-/** What is added to the diagonal, absolutely and as a share, so that it can be factorised whatever
- * the edges do not know. */
+/** Added to the diagonal, as a constant and as a share of it, so that the matrix can be factorised
+ * whatever directions no edge measures. */
 constexpr double kLeastInformation = 1e-6, kLeastShare = 1e-12;
 constexpr double kOutOfPlaneVariance = 1e-6;
 
-/** Edges beside loop closures wait for the optimiser's verdict: what they measure may not be placed
- * yet. */
+/** Edges other than loop closures that may be rejected count only once the optimiser has kept them:
+ * what they measure may not have a place before. */
 bool counts(const PoseGraph& graph, const Edge& edge) {
   if (edge.endsAtLandmark() && !graph.landmarks()[edge.landmark].placed) return false;
   if (edge.mayBeRejected() && !edge.isLoopClosure()) return edge.verdict == Verdict::kInlier;
@@ -123,7 +123,7 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
   using Block = typename Space::Jacobian;
   using Column = std::vector<typename BlockCholesky<kDof>::InverseBlock>;
 
-  /** Empty for a node that is held: it is known. */
+  /** Empty for a node that is held: its pose is known. */
   Column column(size_t node) const {
     return row_[node] < 0 ? Column() : cholesky().inverseColumn(row_[node]);
   }
@@ -143,7 +143,8 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
     return inSpace(sum);
   }
 
-  /** Z Zᵀ, where Z is the two columns' sum after the relative pose's Jacobians. */
+  /** Zᵀ Z, where Z is the sum of both nodes' columns, each times its transposed Jacobian of the
+   * relative pose. */
   Matrix6d relative(size_t from, const Column& of_from, size_t to) const {
     const Pose3 from_T_to = Space::toPose3(poses_[from]).inverse() * Space::toPose3(poses_[to]);
     Block d_from, d_to;
@@ -169,7 +170,7 @@ class MarginalCovariances::ImplOf : public MarginalCovariances::Impl {
   std::vector<int> row_;  ///< of each pose in the equations, -1 for held ones
   BlockMatrix<kDof> matrix_;
   mutable std::once_flag factorized_;
-  mutable std::unique_ptr<BlockCholesky<kDof>> cholesky_;  ///< made by the first that asks for it
+  mutable std::unique_ptr<BlockCholesky<kDof>> cholesky_;  ///< made by the first query
 };
 
 MarginalCovariances::MarginalCovariances(const PoseGraph& graph) {

@@ -212,7 +212,7 @@ TEST_F(PgoApp, InformationThatMeansNothingIsNoReasonToLoseLoops) {
   const nlohmann::json loose = withInformation(informationOf(2.0, 0.3));
   EXPECT_EQ(loose["information"], "constant");
   EXPECT_EQ(loose["inliers"], 100);
-  EXPECT_THAT(out, HasSubstr("far better than it says"));
+  EXPECT_THAT(out, HasSubstr("far better than it suggests"));
 
   const nlohmann::json plausible = withInformation(informationOf(0.05, 0.01));
   EXPECT_EQ(plausible["information"], "constant");

@@ -13,7 +13,7 @@ namespace {
 
 using Vectors = std::vector<Eigen::Vector3d>;
 
-/** An edge that wants `to = by · from + offset` of one vector for each node. */
+/** Asks for `to = by · from + offset`, where each node has one vector. */
 struct LinearEdge {
   size_t from, to;  ///< places of the nodes
   double weight;
@@ -36,8 +36,8 @@ class VectorField {
     solvable_ = cholesky_->factorize(matrix_, 1e-12);
   }
 
-  /** \param values of the nodes: of those that are held on the way in, of all on the way out. They
-   * stay if the problem is singular. */
+  /** \param values by node; in: of those that are held, out: of all. Unchanged if the problem is
+   * singular. */
   void solve(const Vectors& offsets, Vectors& values) const {
     if (!solvable_) return;
     Eigen::VectorXd x =
@@ -85,7 +85,7 @@ std::vector<const Edge*> relativeEdges(const PoseGraph& graph) {
   return edges;
 }
 
-/** Fixed nodes, those with a prior, and the first node of each component without. */
+/** Fixed nodes, nodes with a prior, and the first node of each component that has neither. */
 std::vector<bool> heldNodes(const PoseGraph& graph) {
   std::vector<double> weights;
   std::vector<bool> held(graph.nodes().size(), false);
@@ -113,7 +113,7 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& m) {
   return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
 }
 
-/** Replaces the rotations. Row k of a node's matrix is one vector: `to = from_R_toᵀ · from`. */
+/** Replaces the rotations. Row k of the matrix is the node's vector: `to = from_R_toᵀ · from`. */
 void solveRotations(const PoseGraph& graph, const std::vector<bool>& held,
                     std::vector<Pose3>& poses) {
   std::vector<LinearEdge> edges;

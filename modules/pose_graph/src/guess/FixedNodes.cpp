@@ -17,7 +17,7 @@ class FixedChain {
 
   void layOut(std::vector<Pose3>& poses) const {
     if (fixed_.empty()) return;
-    size_t before = 0;  // of fixed_, the last one before a node, or the first one
+    size_t before = 0;  // in fixed_: the last one up to node k, else the first
     for (size_t k = 0; k < nodes_.size(); ++k) {
       if (before + 1 < fixed_.size() && fixed_[before + 1] <= k) ++before;
       Pose3 pose = seenFrom(fixed_[before], k);
@@ -36,7 +36,7 @@ class FixedChain {
                       chains_.poseFromFirst(nodes_[k]));
   }
 
-  /** A pose seen from `begin`, with its part of what is missing at `end`. */
+  /** A pose seen from `begin`, corrected by its share of the misfit at `end`. */
   Pose3 bent(const Pose3& pose, size_t k, size_t begin, size_t end) const {
     const Pose3 arrived = seenFrom(begin, end);
     const double ratio = static_cast<double>(k - begin) / static_cast<double>(end - begin);

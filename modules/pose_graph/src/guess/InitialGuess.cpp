@@ -42,7 +42,8 @@ class FrameLayout {
  private:
   bool placed(int chain) const { return world_T_first_[chain].has_value(); }
 
-  /** The surest prior of a chain that is not placed, or the first such chain. */
+  /** Of the chains not placed yet, the one with the most certain prior; the first if none has a
+   * prior. */
   std::optional<int> nextSeed() const {
     std::optional<int> best;
     const auto uncertainty = [&](int chain) {
@@ -54,7 +55,7 @@ class FrameLayout {
     return best;
   }
 
-  /** Places a chain by the average that most loops agree with. */
+  /** Places a chain by the average with which most loops agree. */
   bool placeByLoops() {
     const FrameAverage* best = nullptr;
     for (const FrameAverage& average : averages_)
@@ -69,7 +70,8 @@ class FrameLayout {
     return true;
   }
 
-  /** Than what the priors say, if they say anything, which it must not contradict. */
+  /** Whether the average is more certain than what the priors say, if anything, and does not
+   * contradict it. */
   bool isSurer(const FrameAverage& average) const {
     const auto by_priors = chains_.between(chains_.first(average.a), chains_.first(average.b));
     if (!by_priors) return true;

@@ -1,8 +1,9 @@
 #include "guess/LandmarkGuess.h"
 
 #include <Eigen/SVD>
-#include <algorithm>
+#include <utility>
 
+#include "lamp/core/Median.h"
 #include "solver/Information.h"
 
 namespace lamp {
@@ -14,7 +15,7 @@ struct Distance {
   double range_m;
 };
 
-/** What the edges say of one landmark. */
+/** What the edges say about one landmark. */
 struct Evidence {
   std::vector<Eigen::Vector3d> sightings;  ///< in the world
   std::vector<Distance> distances;
@@ -37,21 +38,19 @@ std::vector<Evidence> collect(const PoseGraph& graph, const std::vector<Pose3>& 
   return evidence;
 }
 
-/** By coordinate: half of the sightings may be mistaken. */
+/** By coordinate, since up to half of the sightings may be mistaken. */
 Eigen::Vector3d median(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d result;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const Eigen::Vector3d& p : points) values.push_back(p[axis]);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    result[axis] = *middle;
+    result[axis] = medianOf(std::move(values));
   }
   return result;
 }
 
-/** Where spheres about the antennas meet: differences of `|p - a|² = r²` are linear in p. None if
- * the antennas lie too nearly in one plane (planar: on one line) to tell the sides apart. */
+/** Where the spheres about the antennas meet: differences of `|p - a|² = r²` are linear in p. None
+ * if the antennas lie too close to one plane (planar: one line) to tell its sides apart. */
 std::optional<Eigen::Vector3d> multilaterate(const std::vector<Distance>& distances, int axes) {
   constexpr double kLeastSpread = 0.05;
   if (static_cast<int>(distances.size()) <= axes) return std::nullopt;

@@ -7,8 +7,8 @@
 
 namespace lamp {
 
-/** Where each of the graph's landmarks is seen from key nodes at such poses; none where the
- * admitted edges do not tell.
+/** Where each of the graph's landmarks lies in the world, as seen from key nodes at the given
+ * poses; none where the admitted edges do not tell.
  * \param world_T_base in the order of PoseGraph::nodes(). \param admitted by edge. */
 std::vector<std::optional<Eigen::Vector3d>> landmarkGuess(const PoseGraph& graph,
                                                           const std::vector<Pose3>& world_T_base,

@@ -9,7 +9,8 @@ namespace lamp {
 
 namespace {
 
-/** Robots and the world, joined by fixed key nodes, and admitted priors and loop closures. */
+/** Frames of the robots and the world, joined by fixed key nodes, priors, and admitted loop
+ * closures. */
 class Frames {
  public:
   Frames(const PoseGraph& graph, const std::vector<bool>& admitted)
@@ -39,7 +40,7 @@ class Frames {
   DisjointSets sets_;
 };
 
-/** A landmark is in the frame of whoever saw it first. */
+/** A landmark is in the frame of the robot that saw it first. */
 void dropUnrelated(const PoseGraph& graph, std::vector<bool>& admitted) {
   Frames frames(graph, admitted);
   std::vector<std::optional<size_t>> frame(graph.landmarks().size());

@@ -13,17 +13,18 @@ struct SolveStart {
   std::vector<bool> admitted;  ///< by edge
 };
 
-/** Places the landmarks as key nodes at such poses see them: the median of the sightings, or where
- * the distances meet. Edges that cannot help are not admitted any more: of landmarks that nothing
- * places, and between robots, or a robot and the world, whose frames nothing admitted relates.
+/** Places the landmarks as seen from key nodes at the given poses: at the median of the sightings,
+ * or where the distances meet. Edges of no use are no longer admitted: those to landmarks that
+ * nothing places, and those between robots, or a robot and the world, whose frames nothing admitted
+ * relates.
  * \param world_T_base in the order of PoseGraph::nodes(). */
 SolveStart completeStart(const PoseGraph& graph, std::vector<Pose3> world_T_base,
                          std::vector<bool> admitted);
 
-/** The graph with its edges that may be rejected judged as the flags say. */
+/** The graph, with the flags as verdicts on the edges that may be rejected. */
 PoseGraph judged(PoseGraph graph, const std::vector<bool>& admitted);
 
-/** The key nodes' part and the landmarks' part of a solution. */
+/** Stores the key nodes' and the landmarks' parts of a solution in the result. */
 void splitSolution(const PoseGraph& graph, const SolveStart& start, std::vector<Pose3> solution,
                    OptimizationResult& result);
 

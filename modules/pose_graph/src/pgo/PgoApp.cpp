@@ -31,9 +31,11 @@ void describe(CLI::App& app, Arguments& arguments) {
       "Robust optimisation of a pose graph in g2o's format.\n"
       "Example: lamp-pgo graph.g2o --out optimised.g2o --json report.json");
   app.set_version_flag("--version", std::string("lamp-pgo ") + kVersion);
-  app.add_option("graph", arguments.graph, "SE2 or SE3")->type_name("GRAPH.g2o")->required();
+  app.add_option("graph", arguments.graph, "Pose graph, SE2 or SE3")
+      ->type_name("GRAPH.g2o")
+      ->required();
   app.add_option("--config", arguments.config,
-                 "Experiment file of lamp-slam, of which outlier_rejection and optimizer are used")
+                 "Experiment file of lamp-slam, from which only the back end is used")
       ->type_name("CONFIG.ini");
   app.add_option("--out", arguments.out, "The optimised graph, without the rejected loop closures")
       ->type_name("OUT.g2o")
@@ -41,20 +43,21 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--odometry-edges", arguments.odometry_edges,
                  "Which edges are odometry, which is never rejected: between successive ids (ids), "
                  "from id to id + 1 (next), between successive VERTEX lines (vertices), along the "
-                 "file's edges (edges), or a FILE with a pair of ids in each line; auto: ids, or "
-                 "what else chains the nodes if ids hardly do")
+                 "file's edges (edges), or as listed in a FILE, a pair of ids a line; auto: ids, "
+                 "or the better of vertices and edges if ids chain few nodes")
       ->type_name("RULE|FILE")
       ->capture_default_str();
   app.add_option(
          "--add-outliers", arguments.add_outliers,
-         "Adds false loop closures until they make up this share, and counts how many are found")
+         "Adds false loop closures until they make up this share of all, and reports precision and "
+         "recall")
       ->type_name("SHARE")
       ->check(CLI::Range(0.0, 0.99));
   app.add_option("--seed", arguments.seed, "Seed of the false loop closures")
       ->capture_default_str()
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
   app.add_option("--json", arguments.json,
-                 "Writes figures, and weight, verdict and chi2 of each edge; - for stdout")
+                 "Writes all figures, and each edge's weight, verdict and chi2; - for stdout")
       ->type_name("FILE");
   app.add_option("--covariances", arguments.covariances,
                  "Writes the covariance of each node's pose at the solution")
@@ -89,7 +92,7 @@ BackEnd makeBackEnd(const std::string& config) {
   return back_end;
 }
 
-/** What agrees by chance cannot be told without knowing how large errors are. */
+/** What agrees by chance can only be told if the size of errors is known. */
 void leaveChanceOut(G2oGraph& g2o, BackEnd& back_end) {
   const bool is_identity = g2o.information == InformationKind::kIdentity;
   if (!is_identity &&
@@ -102,9 +105,9 @@ void leaveChanceOut(G2oGraph& g2o, BackEnd& back_end) {
   stages.erase(std::remove_if(stages.begin(), stages.end(), judgesChance), stages.end());
   g2o.notes.push_back(
       std::string("the information ") +
-      (is_identity ? "is the identity in all edges and says nothing of their errors"
-                   : "is the same in all edges, and loop closures meet odometry far better than it "
-                     "says") +
+      (is_identity ? "is the identity in all edges and says nothing about their errors"
+                   : "is the same in all edges, and loop closures agree with odometry far better "
+                     "than it suggests") +
       ": ChanceAgreement takes no part, and only loop closures that contradict others are "
       "rejected");
 }

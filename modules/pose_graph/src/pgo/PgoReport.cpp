@@ -32,7 +32,7 @@ Json scores(const OptimizationResult& result, size_t true_edges) {
           {"recall", share(right, all)}};
 }
 
-/** Whether of the file's loop closures a tenth was kept. */
+/** Whether at least a tenth of the file's loop closures was kept. */
 bool isSuccess(const OptimizationResult& result, const PoseGraph& graph, size_t true_edges) {
   size_t kept = 0, all = 0;
   for (const LoopVerdict& loop : result.loops) {
@@ -43,7 +43,7 @@ bool isSuccess(const OptimizationResult& result, const PoseGraph& graph, size_t 
   return result.report.usable && 10 * kept >= all;
 }
 
-/** Chains are pieces of odometry; a node without any is one of its own. */
+/** Chains are unbroken pieces of odometry; a node without odometry is a chain of its own. */
 Json odometry(const G2oGraph& g2o) {
   const auto& edges = g2o.graph.edges();
   const auto count = static_cast<size_t>(std::count_if(
@@ -54,9 +54,9 @@ Json odometry(const G2oGraph& g2o) {
 }
 
 const char* inWords(const std::string& rule) {
-  if (rule == toString(OdometryRule::kNext)) return "from an id to the next number";
+  if (rule == toString(OdometryRule::kNext)) return "from each id to the next number";
   if (rule == toString(OdometryRule::kVertices)) return "between successive VERTEX lines";
-  if (rule == toString(OdometryRule::kEdges)) return "that make paths, in the order of the file";
+  if (rule == toString(OdometryRule::kEdges)) return "that form paths, in the order of the file";
   if (rule == toString(OdometryRule::kListed)) return "as listed";
   return "between successive ids";
 }

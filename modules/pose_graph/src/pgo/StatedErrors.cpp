@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "lamp/core/ChiSquare.h"
+#include "lamp/core/Median.h"
 #include "rejection/OdometryChains.h"
 #include "rejection/PoseVolume.h"
 #include "solver/Information.h"
@@ -14,9 +16,10 @@ namespace lamp {
 namespace {
 
 constexpr size_t kFewestCycles = 10, kMaxCycles = 400;
-/** Of variances, over those stated. */
+/** Factors on the stated variances. */
 constexpr double kLeastFactor = 1e-12, kFarTooLarge = 1.0 / 16;
-/** Share of true loop closures that are near, and what is nearly as many as most. */
+/** The share of true loop closures that counts as near, and the share of the most that counts as
+ * nearly as many. */
 constexpr double kNear = 0.9, kNearly = 0.97;
 
 /** A loop closure and the odometry between its ends. */
@@ -41,8 +44,9 @@ std::vector<OdometryCycle> odometryCycles(const PoseGraph& graph, const Odometry
   return cycles;
 }
 
-/** The largest distance of those that are near with the least factor with which nearly as many are
- * as with any, false ones not counted; zero if there is none. */
+/** The largest squared distance at which a loop closure counts as true: near by the least factor
+ * with which nearly as many are near as with any other, not counting those that false ones would
+ * add by chance. Zero if there is none. */
 double largestTrueDistance2(const std::vector<OdometryCycle>& cycles, const PoseVolume& volume,
                             double threshold) {
   std::vector<std::pair<double, double>> surplus;  // by factor
@@ -73,9 +77,7 @@ bool overstatesErrors(const PoseGraph& graph) {
   for (const OdometryCycle& cycle : cycles)
     if (cycle.distance2 <= limit) distances2.push_back(cycle.distance2);
   if (distances2.size() < kFewestCycles) return false;
-  const auto median = distances2.begin() + static_cast<std::ptrdiff_t>(distances2.size() / 2);
-  std::nth_element(distances2.begin(), median, distances2.end());
-  return *median < kFarTooLarge * chiSquareQuantile(0.5, dof);
+  return medianOf(std::move(distances2)) < kFarTooLarge * chiSquareQuantile(0.5, dof);
 }
 
 }  // namespace lamp

@@ -13,7 +13,7 @@ namespace lamp {
 
 namespace {
 
-/** Of all false loops together, so many may be admitted by chance. */
+/** The number of false loops, of all together, that may be expected to pass by chance. */
 constexpr double kExpected = 0.05;
 
 struct DoubtfulLoop {

@@ -16,14 +16,14 @@ namespace lamp {
 namespace {
 
 constexpr double kInlierProbability = 0.9999;
-/** So many measurements are tried as a start. */
+/** How many measurements are tried as a start. */
 constexpr size_t kMaxStarts = 200;
 constexpr double kMuStep = 1.6;
 constexpr int kMaxRounds = 100;
-/** m² and rad²: no loop closure after a drive knows the frames better than that. */
+/** m² and rad²: after a drive, no loop closure knows the frames better than such priors do. */
 constexpr double kSurePrior = 1e-3;
 
-/** What one loop closure says of a frame. */
+/** What one loop closure says about a frame. */
 struct Measurement {
   EdgeIndex loop;
   KeyNodeId a, b;  ///< its key nodes
@@ -88,7 +88,7 @@ Pose3 mean(const std::vector<Measurement>& measurements, const std::vector<doubl
   return pose;
 }
 
-/** The measurement that most others come near to. */
+/** The measurement nearest to most others. */
 Pose3 start(const std::vector<Measurement>& measurements) {
   const size_t stride = measurements.size() / kMaxStarts + 1;
   Pose3 best = measurements[0].a_T_b;
@@ -104,7 +104,8 @@ Pose3 start(const std::vector<Measurement>& measurements) {
   return best;
 }
 
-/** Agreeing loops that see other places: those of one key node may all be wrong in the same way. */
+/** Counts loops that agree and see different places: those of one key node may all be wrong in the
+ * same way. */
 size_t countAgreeing(const std::vector<Measurement>& measurements, const Pose3& pose) {
   std::set<KeyNodeId> of_a, of_b;
   for (const Measurement& m : measurements) {

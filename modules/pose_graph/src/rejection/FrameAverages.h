@@ -17,10 +17,11 @@ struct FrameAverage {
 
 /** One average for each pair of chains that admitted loops join, by (a, b).
  *
- * Each loop closure with the odometry from both first key nodes is one measurement of the frame,
- * with the covariances of all three. They are averaged robustly: the measurement of least truncated
- * cost is the start of graduated non-convexity with truncated least squares.
- * \param admitted one flag for each edge. */
+ * Each loop closure, with the odometry from both chains' first key nodes to its ends, is one
+ * measurement of the frame, with the covariances of all three. The measurements are averaged
+ * robustly, by graduated non-convexity with truncated least squares, which starts at the
+ * measurement of least truncated cost.
+ * \param admitted one flag per edge. */
 std::vector<FrameAverage> frameAverages(const PoseGraph& graph, const OdometryChains& chains,
                                         const std::vector<bool>& admitted);
 

@@ -6,8 +6,8 @@ namespace lamp {
 
 namespace {
 
-/** Vertices in classes of which no two are joined, the classes in order. No clique among the first
- * k vertices is larger than the class number of the k-th. */
+/** Vertices sorted into classes, within which no two are joined. No clique among the first k
+ * vertices is larger than the class number of the k-th. */
 struct Colouring {
   std::vector<int> vertices;
   std::vector<size_t> colours;  ///< from 1

@@ -16,7 +16,7 @@ namespace {
 const char* const kUncertainty = "uncertainty";
 const char* const kPerNode = "per_node";
 
-/** Whether cycles close, by the test that the options name. */
+/** Whether cycles close, by the test that the options choose. */
 class Consistency {
  public:
   Consistency(const OdometryChains& chains, const IcmOptions& options, bool planar)
@@ -31,7 +31,8 @@ class Consistency {
     return cycle(a, b, chains_).distance2() <= threshold_;
   }
 
-  /** Only LAMP's thresholds ask odometry: with uncertainties, that is OdometryGate's part. */
+  /** Only LAMP's thresholds are compared with odometry here; with uncertainties that is
+   * OdometryGate's task. */
   bool agreesWithOdometry(const DirectedLoop& loop) const {
     if (options_.test != kPerNode || chains_.chain(loop.from) != chains_.chain(loop.to))
       return true;
@@ -54,12 +55,12 @@ class Consistency {
 
 }  // namespace
 
-/** The loops between two chains that were compared so far. */
+/** The loops between two chains that have been compared so far. */
 class Icm::Group {
  public:
   explicit Group(size_t max_steps) : clique_(max_steps) {}
 
-  /** Whether these loops are the first of the new list, unchanged. */
+  /** Whether the new list begins with these loops, unchanged. */
   bool startOf(const std::vector<DirectedLoop>& loops) const {
     return loops_.size() <= loops.size() &&
            std::equal(loops_.begin(), loops_.end(), loops.begin(),

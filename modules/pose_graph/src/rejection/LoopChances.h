@@ -9,10 +9,10 @@
 
 namespace lamp {
 
-/** More partners tell nothing new. */
+/** Further partners add nothing. */
 constexpr size_t kMaxPartners = 30;
 
-/** The chance that what is seen of a loop is seen of a false one. */
+/** The chance that a false loop looks as good as the one at hand. */
 class LoopChances {
  public:
   LoopChances(const PoseGraph& graph, const OdometryChains& chains)
@@ -22,13 +22,14 @@ class LoopChances {
     return volume_.chance(odometry.covariance + loop.measured.covariance);
   }
 
-  /** The least k · min(1, λ)^s of the k nearest partners: far ones, of which odometry knows little,
-   * must not hide what the near ones say. \param enough at which the search ends. */
+  /** The least k · min(1, λ)^s over all k, of the k nearest partners: distant ones, about which
+   * odometry knows little, must not drown out the near ones.
+   * \param enough a value at or below which the search ends. */
   double ofPartners(const DirectedLoop& loop, const std::vector<DirectedLoop>& partners,
                     double enough) const {
     double expected = 0, least = 1.0;
     int agreeing = 0;
-    std::vector<Matrix6d> between;  // of nearer partners that do not agree, as most do not
+    std::vector<Matrix6d> between;  // of partners since the last that agreed; few do
     for (size_t k = 0; k < partners.size() && least > enough; ++k) {
       const Closure closure = cycle(loop, partners[k], chains_);
       between.push_back(closure.covariance);

@@ -13,13 +13,14 @@ struct DirectedLoop {
 
 DirectedLoop directed(EdgeIndex index, const Edge& edge, bool planar);
 
-/** How many key nodes apart two of one robot are. */
+/** How many key nodes apart two key nodes of one robot are. */
 int nodesBetween(KeyNodeId a, KeyNodeId b);
 
-/** From `a.from` to `a.to` by odometry, loop b, and odometry. Both must join the same chains. */
+/** From `a.from` to `a.to` by odometry, loop b and odometry. Both loops must join the same
+ * chains. */
 RelativePose otherWay(const DirectedLoop& a, const DirectedLoop& b, const OdometryChains& chains);
 
-/** How far a cycle, or loop and odometry, are from closing, and how far they may be. */
+/** How far a cycle is from closing, and the covariance of that. */
 struct Closure {
   Vector6d error;
   Matrix6d covariance;
@@ -27,7 +28,7 @@ struct Closure {
   double distance2() const;
 };
 
-/** Of loop a, odometry, loop b, odometry. */
+/** For the cycle of loop a, odometry, loop b and odometry. */
 Closure cycle(const DirectedLoop& a, const DirectedLoop& b, const OdometryChains& chains);
 
 }  // namespace lamp

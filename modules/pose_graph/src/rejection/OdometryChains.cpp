@@ -82,7 +82,7 @@ RelativePose OdometryChains::fromFirst(KeyNodeId id) const {
 }
 
 RelativePose OdometryChains::withinChain(const Link& a, const Link& b, double scale) const {
-  // The sums of the piece's edges are on the side of the later node.
+  // The later node's sum includes the edges of the piece.
   const double sign = b.covariance.trace() >= a.covariance.trace() ? scale : -scale;
   return {a.first_T_node.inverse() * b.first_T_node,
           carried(b.first_T_node.inverse(), sign * (b.covariance - a.covariance))};

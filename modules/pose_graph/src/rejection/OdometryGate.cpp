@@ -19,17 +19,17 @@ namespace {
 constexpr double kNearly = 0.97;
 constexpr size_t kSampled = 400;
 constexpr size_t kEnoughPlaces = 20;
-/** The share of false loops is a posterior mean: before odometry has contradicted any loop, this
- * share is expected, as sure as one loop that it could have contradicted would make it. */
+/** The share of false loops is a posterior mean. This is the share expected beforehand, with the
+ * weight of one loop that odometry could have contradicted. */
 constexpr double kPriorShare = 0.05;
 constexpr double kPriorWeight = 1.0;
-/** Smaller scales may be chance, and not to know of them does no harm. */
+/** Smaller scales may be due to chance, and ignoring them does no harm. */
 constexpr double kLeastMistake = 16.0;
-/** A few false loops that agree must not loosen odometry: of all loops, so many have to ask for it.
- */
+/** A few false loops that agree must not loosen odometry: at least this many loops, and this share
+ * of them, must call for it. */
 constexpr double kFewestWitnesses = 10, kLeastWitnesses = 0.1;
 
-/** A loop closure beside what odometry says. */
+/** A loop closure compared with odometry. */
 struct GatedLoop {
   EdgeIndex edge;
   Vector6d error;
@@ -58,7 +58,7 @@ std::vector<GatedLoop> gatedLoops(const PoseGraph& graph, const OdometryChains& 
   return loops;
 }
 
-/** At even steps: as many as tell the scale. */
+/** Evenly spaced loops, enough to find the scale. */
 std::vector<GatedLoop> sample(const std::vector<GatedLoop>& loops) {
   const size_t step = loops.size() / kSampled + 1;
   std::vector<GatedLoop> sampled;
@@ -66,23 +66,24 @@ std::vector<GatedLoop> sample(const std::vector<GatedLoop>& loops) {
   return sampled;
 }
 
-/** The loops that tell the scale: those that neighbours bear out, of which hardly any is false; all
- * where such are few. */
+/** The loops by which the scale is found: those that neighbours bear out, hardly any of which are
+ * false, or all where such loops are few. */
 std::vector<GatedLoop> scaleLoops(const PoseGraph& graph, const OdometryChains& chains,
                                   const std::vector<GatedLoop>& loops) {
-  std::vector<DirectedLoop> ways;
+  std::vector<DirectedLoop> directed_loops;
   for (const GatedLoop& loop : loops)
-    ways.push_back(directed(loop.edge, graph.edges()[loop.edge], graph.planar()));
+    directed_loops.push_back(directed(loop.edge, graph.edges()[loop.edge], graph.planar()));
   std::vector<GatedLoop> chosen;
-  for (const size_t i : witnesses(ways, chains, LoopChances(graph, chains)))
+  for (const size_t i : witnesses(directed_loops, chains, LoopChances(graph, chains)))
     chosen.push_back(loops[i]);
   return sample(chosen.size() >= kEnoughPlaces ? chosen : loops);
 }
 
-/** How many loops lie as near to odometry as true ones should, and how many false ones would. */
+/** How many loops lie as near to odometry as true ones should, and how many would if all were
+ * false. */
 struct Near {
   double loops = 0, by_chance = 0;
-  /** So many are true, at least. */
+  /** At least so many of them are true. */
   double surplus() const { return loops - by_chance - 3.0 * std::sqrt(by_chance); }
 };
 
@@ -97,13 +98,14 @@ Near countNear(const std::vector<GatedLoop>& loops, double scale, double inlier_
   return near;
 }
 
-/** A factor of odometry's covariances, and how many true loops more than with 1 lie near then. */
+/** A factor on odometry's covariances, and how many more true loops lie near with it than with
+ * 1. */
 struct Scale {
   double value = 1.0, witnesses = 0;
 };
 
-/** The least scale, at least 1, with which nearly as many loops lie near odometry as with any,
- * false ones not counted. */
+/** The least scale, at least 1, with which nearly as many loops lie near odometry as with any
+ * other, not counting those that false ones would add by chance. */
 Scale fittingScale(const std::vector<GatedLoop>& loops, const OdometryGateOptions& options,
                    const PoseVolume& volume) {
   std::vector<std::pair<double, Near>> tried;
@@ -149,7 +151,7 @@ Admission OdometryGate::reject(const PoseGraph& graph, Admission before) {
     power += 1.0 - volume.chance(loop.covariance(scale.value), threshold);
     if (loop.distance2(scale.value) <= threshold) continue;
     before.admitted[loop.edge] = false;
-    before.waiting[loop.edge] = scale.value > 1.0;  // odometry that errs is no sure judge
+    before.waiting[loop.edge] = scale.value > 1.0;  // odometry that errs is not a safe judge
     wrong += 1.0;
   }
   if (loops.empty()) return before;

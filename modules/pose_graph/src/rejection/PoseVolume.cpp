@@ -14,13 +14,14 @@ namespace {
 
 /** Volumes of the unit balls in three and six dimensions. */
 constexpr double kBall3 = 4.0 / 3.0 * M_PI, kBall6 = M_PI * M_PI * M_PI / 6.0;
-/** Volume of all rotations, in rotation vectors near the identity. */
+/** Volume of all rotations, in units of rotation vectors near the identity. */
 constexpr double kAllRotations = 8.0 * M_PI * M_PI;
 
 /** Share of true loops that lie in their ellipsoids. */
 constexpr double kUsual = 0.99;
 
-/** An ellipsoid that leaves the box is cut softly: at so many times the box's own. */
+/** An ellipsoid that extends beyond the box is cut off softly, at this multiple of the box's
+ * covariance. */
 constexpr double kCut = 3.0;
 
 template <class Matrix>
@@ -28,7 +29,7 @@ double determinant(const Matrix& positive) {
   return std::pow(Matrix(positive.llt().matrixL()).diagonal().prod(), 2);
 }
 
-/** Ratio of the ellipsoids' volumes. \param D that of the box. */
+/** Ratio of two ellipsoids' volumes, from their covariances. \param D of the box. */
 template <class Matrix>
 double share(const Matrix& C, const Matrix& D) {
   const Matrix cut = Matrix::Identity() + C * (kCut * D).inverse();

@@ -4,20 +4,20 @@
 
 namespace lamp {
 
-/** How likely a relative pose lies somewhere by chance, if it is uniform over a map: positions over
- * twice its extent each way, rotations over all. */
+/** How likely a relative pose lies within some region by chance, if it is uniform over a map:
+ * positions over twice the map's extent along each axis, rotations over all there are. */
 class PoseVolume {
  public:
-  /** The extent is that of the odometry of all chains, as if all started at one place. Below 1 m it
-   * counts as 1 m. */
+  /** The extent is that of the odometry of all chains, as if they all started at one place, and at
+   * least 1 m. */
   PoseVolume(const PoseGraph& graph, const OdometryChains& chains);
   /** The extent is that of the estimates. */
   explicit PoseVolume(const PoseGraph& graph);
 
-  /** Of an ellipsoid of squared Mahalanobis distance at most `threshold`: the ratio of volumes, at
-   * most 1, with an ellipsoid that leaves the map cut there, roughly. */
+  /** The chance for the ellipsoid of squared Mahalanobis distance `threshold`: its volume over the
+   * map's, at most 1. What extends beyond the map is cut off, roughly. */
   double chance(const Matrix6d& covariance, double threshold) const;
-  /** Of the ellipsoid that 99 % of the true ones lie in. */
+  /** The chance for the ellipsoid that holds 99 % of true relative poses. */
   double chance(const Matrix6d& covariance) const { return chance(covariance, usual_); }
   /** Squared Mahalanobis distance of that ellipsoid. */
   double usualThreshold() const { return usual_; }

@@ -11,10 +11,10 @@ namespace lamp {
 
 namespace {
 
-/** As OdometryGate's. */
+/** OdometryGate's default. */
 constexpr double kInlierProbability = 0.9999;
 
-/** A loop that waits, beside the solution. */
+/** A waiting loop compared with the solution. */
 struct WaitingLoop {
   EdgeIndex edge;
   Vector6d error;
@@ -22,14 +22,14 @@ struct WaitingLoop {
   double threshold;
   Pose3 from_T_to;  ///< of the solution
 
-  /** \param relative covariance of the solution's pose. */
+  /** Of the loop and the solution together. \param relative covariance of the solution's pose. */
   Matrix6d with(const Matrix6d& relative) const {
     const Matrix6d J = rightJacobianInverse(error);
     return J * relative * J.transpose() + covariance;
   }
 
-  /** Whatever the correlation of both ends: the covariance of a difference is at most twice the sum
-   * of both, and that is cheap for all loops. */
+  /** Holds whatever the correlation of both ends, and is cheap: the covariance of a difference is
+   * at most twice the sum of both covariances. */
   bool tooFar(const Matrix6d& of_from, const Matrix6d& of_to) const {
     const Matrix6d Ad = adjoint(from_T_to.inverse());
     const Matrix6d most = 2.0 * (Ad * of_from * Ad.transpose() + of_to);

@@ -7,11 +7,11 @@ namespace lamp {
 
 /** Waiting loop closures that a solution without them bears out.
  *
- * A loop is taken if it agrees with what the solution says of the relative pose of its key nodes,
- * within the covariances of both, and if chance does not explain that: a false loop's relative pose
- * is uniform over the map, and would seldom lie so near. So is one that agrees within its own
- * covariance alone.
- * \param graph that was optimised; \param result of it. */
+ * A loop is taken if it agrees with the solution's relative pose of its key nodes, within the
+ * covariances of both, and chance does not explain that: a false loop's relative pose is uniform
+ * over the map, and would seldom lie so near. A loop that agrees within its own covariance is
+ * judged by that alone.
+ * \param graph that was optimised. \param result of that. */
 std::vector<EdgeIndex> borneOut(const PoseGraph& graph, const OptimizationResult& result,
                                 const Admission& admission);
 

@@ -7,9 +7,9 @@
 
 namespace lamp {
 
-/** Admitted loop closures that repeat an earlier admitted edge word for word, and that edge: one
- * measurement that was written twice, and no second witness. Pinned ones are left alone. In their
- * order. */
+/** Admitted loop closures that repeat an earlier admitted edge word for word, each with that edge,
+ * in order. Such a loop is the same measurement written twice, not a second witness. Pinned loops
+ * are left alone. */
 std::vector<std::pair<EdgeIndex, EdgeIndex>> repeatedLoops(const PoseGraph& graph,
                                                            const std::vector<bool>& admitted);
 

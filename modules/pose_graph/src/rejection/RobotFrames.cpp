@@ -16,7 +16,8 @@ void RobotFramesOptions::visit(OptionVisitor& v) {
 
 namespace {
 
-/** If all that agree wait, the solution would not join the two, and bear out none. */
+/** If all loops that agree were to wait, the solution would not join the two robots, and so could
+ * bear out none. */
 void admitWaiting(const FrameAverage& average, Admission& admission) {
   const std::vector<EdgeIndex>& loops = average.agreeing_loops;
   if (std::any_of(loops.begin(), loops.end(), [&](EdgeIndex e) { return admission.admitted[e]; }))
@@ -30,7 +31,7 @@ void admitWaiting(const FrameAverage& average, Admission& admission) {
 }  // namespace
 
 Admission RobotFrames::reject(const PoseGraph& graph, Admission before) {
-  // Loops that wait for a solution are witnesses, too.
+  // Waiting loops are witnesses, too.
   std::vector<bool> admitted = before.admitted;
   for (EdgeIndex e = 0; e < admitted.size(); ++e)
     if (before.waiting[e]) admitted[e] = true;
@@ -38,7 +39,7 @@ Admission RobotFrames::reject(const PoseGraph& graph, Admission before) {
   DisjointSets frames(static_cast<size_t>(chains.size()));
   int in_world = -1;
   for (int chain = 0; chain < chains.size(); ++chain) {
-    // Pieces of one robot, between gaps of its odometry, are no strangers.
+    // Pieces of one robot's drive need no agreement to be joined.
     if (chain > 0 && chains.first(chain).robot == chains.first(chain - 1).robot)
       frames.join(chain - 1, chain);
     if (!chains.hasPrior(chain)) continue;

@@ -7,7 +7,7 @@ namespace lamp {
 
 namespace {
 
-/** Draws that are the same with each standard library. */
+/** Random draws that are the same with every standard library. */
 class Dice {
  public:
   explicit Dice(unsigned seed) : engine_(seed) {}

@@ -6,8 +6,8 @@ namespace lamp {
 
 namespace {
 
-/** Weights below this one are none: the cost never quite gives up an edge, but its fill-in costs.
- */
+/** Weights below this count as zero: the cost never quite gives up an edge, but each one takes time
+ * for its fill-in. */
 constexpr double kLeastWeight = 1e-4;
 
 }  // namespace

@@ -4,11 +4,11 @@
 
 namespace lamp {
 
-/** The surrogate of the Geman-McClure cost in Yang et al., RA-L 2020. Convex for mu to infinity,
- * exact for mu = 1. */
+/** The surrogate of the Geman-McClure cost in Yang et al., RA-L 2020. Convex as mu goes to
+ * infinity, exact for mu = 1. */
 class GemanMcClure : public Graduation {
  public:
-  /** So that the surrogate is convex over all residuals (their remark 5). */
+  /** Makes the surrogate convex over all residuals (their remark 5). */
   void start(double largest) override { mu_ = 2.0 * largest; }
   /** Closed-form weight (their eq. 12). */
   double weight(double residual2) const override;

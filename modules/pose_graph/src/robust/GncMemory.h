@@ -7,15 +7,15 @@
 
 namespace lamp {
 
-/** Whether the graph is the remembered one with nothing but further nodes and edges. */
+/** Whether the graph is the remembered one, with nothing but nodes and edges added at the end. */
 bool continues(const PoseGraph& graph, const GncMemory& memory);
 
-/** Where a solve of the grown graph starts: the remembered poses, and new key nodes where odometry
- * puts them behind those. \param guess initialGuess() of the graph. */
+/** Where a solve of the grown graph starts: the remembered poses, continued by odometry for new key
+ * nodes. \param guess initialGuess() of the graph. */
 std::vector<Pose3> continuedPoses(const PoseGraph& graph, const GncMemory& memory,
                                   const std::vector<Pose3>& guess);
 
-/** What there is to remember of a usable result. */
+/** What to remember of a usable result. */
 GncMemory remember(const PoseGraph& graph, const std::vector<bool>& admitted,
                    const OptimizationResult& result);
 

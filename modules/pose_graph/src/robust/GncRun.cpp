@@ -17,9 +17,9 @@ constexpr double kTrimmedFactor = 4.0;
 constexpr double kMaxTrimmed = 0.1;
 constexpr int kMaxSettlingRounds = 20;
 constexpr double kClearly = 1.0 - 1e-6;
-/** Odometry alone may agree with all loops where their solution does not. */
+/** All loops may agree with odometry even if they do not agree with their own solution. */
 constexpr double kLeastStart = 2.0;
-/** Weights that change by a factor in each round do not need the last digits. */
+/** While weights still change by a factor in each round, the last digits do not matter. */
 constexpr double kInnerTolerance = 1e-3;
 constexpr double kUpdateTolerance = 1e-6;
 
@@ -61,7 +61,7 @@ GncRun::GncRun(const PoseGraph& graph, const std::vector<bool>& admitted, const 
       problem_(graph, start_, options.solver, options.inlier_probability),
       graduation_(makeGraduation(options.loss)),
       full_(options.final_solve) {
-  // The next update goes on where this one stops.
+  // The next update continues where this one stops.
   if (memory) full_.function_tolerance = std::max(full_.function_tolerance, kUpdateTolerance);
   inner_ = first_ = full_;
   inner_.max_iterations = first_.max_iterations = options.inner_iterations;
@@ -84,7 +84,7 @@ OptimizationResult GncRun::run() {
   }
   settle();
   if (problem_.bestCost() < kClearly * problem_.truncatedCost()) {
-    // Another minimum that the run has seen is lower than the one in which it has ended.
+    // The run has seen a lower minimum than the one in which it has ended.
     problem_.setPoses(problem_.bestPoses());
     settle();
   }
@@ -93,9 +93,8 @@ OptimizationResult GncRun::run() {
   return result;
 }
 
-/** Odometry may lead into a wrong minimum. A chordal initialisation needs no good odometry, but
- * loops that do not mislead it: it becomes the guess if its solution has the lower truncated cost.
- */
+/** Odometry may lead into a wrong minimum. A chordal initialisation does not need good odometry,
+ * but loops can mislead it: it becomes the guess if its solution has the lower truncated cost. */
 void GncRun::tryChordalGuess() {
   const double cost = problem_.truncatedCost();
   const std::vector<Pose3> poses = problem_.poses();
@@ -109,9 +108,10 @@ void GncRun::tryChordalGuess() {
     problem_.setPoses(poses);
 }
 
-/** Takes the worst loops out until the others agree. Each solve starts anew: out of the shape
- * that false loops gave it, the graph finds its way back slowly. Ends where that does not help.
- * \return whether so few had to go that no other set of loops can be as large. */
+/** Takes out the worst loops until the others agree. Each solve starts at the guess, since from the
+ * shape that false loops gave it the graph recovers only slowly. Gives up when this no longer
+ * helps.
+ * \return whether so few had to go that no other set of loops that agree can be as large. */
 bool GncRun::trim() {
   stopping_ = "all but a few loops agree";
   const auto kept = [](double residual2) {
@@ -133,7 +133,7 @@ bool GncRun::trim() {
   return false;
 }
 
-/** Of the loops that take part or could, the share of those that were taken out. */
+/** The share of loops taken out, among those that take part or could. */
 double GncRun::trimmedShare() const {
   double out = 0, all = 0;
   for (const WeighedLoop& loop : problem_.loops()) {
@@ -143,8 +143,8 @@ double GncRun::trimmedShare() const {
   return out / all;
 }
 
-/** Rounds go on from the last solution. Where that fits poorly, which true loops with their weights
- * would not, it is a wrong minimum, perhaps, and the guess is tried, too. */
+/** Each round continues from the last solution. If that fits poorly, as true loops with their
+ * weights would not, it may be a wrong minimum, and the guess is tried as well. */
 void GncRun::graduate() {
   constexpr int kSureRounds = 2;
   stopping_ = "max_rounds reached";
@@ -176,9 +176,9 @@ void GncRun::solveFromBothStarts() {
   if (!(problem_.cost() < cost)) problem_.setPoses(poses);
 }
 
-/** Solves and verdicts at the threshold in turn, of which neither can raise the truncated cost;
- * anew where loops were left out. Solves are short until no verdict changes: with a false loop
- * still in, there is hardly an end to them. */
+/** Alternates between solving and judging at the threshold, neither of which can raise the
+ * truncated cost. Once loops have been left out, it starts over from the guess. Solves are cut
+ * short until no verdict changes: with a false loop still in, they hardly converge. */
 void GncRun::settle() {
   const auto verdict = [](double residual2) { return residual2 <= 1.0 ? 1.0 : 0.0; };
   problem_.weigh(verdict, false);
@@ -200,8 +200,9 @@ void GncRun::settle() {
   stopping_ += ", but the last verdicts still changed";
 }
 
-/** Takes out loops without which the truncated cost is lower: to these others have given way. If
- * there are several, the worst ones, since those make others look bad. \return whether any is. */
+/** Takes out loops without which the truncated cost is lower: others have given way to them. If
+ * there are several, only the worst go, since they make others look bad.
+ * \return whether there are any. */
 bool GncRun::rejectByLeavingOut() {
   const std::vector<WeighedLoop*> judged =
       problem_.graduated([](const WeighedLoop& l) { return l.weight > 0; });
@@ -217,8 +218,9 @@ bool GncRun::rejectByLeavingOut() {
 }
 
 /** The reverse: takes in loops that do not agree with the solution, but would if it gave way to
- * them as far as its covariance allows. Once: whether it does, the verdict says. \return whether
- * any is. */
+ * them as far as its covariance allows. Each comes in once: the next verdict tells whether the
+ * solution did give way.
+ * \return whether there are any. */
 bool GncRun::admitByTakingIn() {
   const std::vector<WeighedLoop*> judged = problem_.graduated([&](const WeighedLoop& l) {
     return l.weight == 0 && !l.left_out && !l.taken_in && graph_.edges()[l.edge].isLoopClosure();

@@ -13,7 +13,8 @@ namespace lamp {
 /** One run of Gnc over one graph. */
 class GncRun {
  public:
-  /** \param memory of the graph that this one continues, or null. All must outlive this. */
+  /** \param memory of the graph that this one continues, or null. All arguments must outlive
+   * this. */
   GncRun(const PoseGraph& graph, const std::vector<bool>& admitted, const GncOptions& options,
          const GncMemory* memory);
 
@@ -38,8 +39,8 @@ class GncRun {
   WeighedProblem problem_;
   std::unique_ptr<Graduation> graduation_;
   SolverOptions full_;
-  SolverOptions inner_;  ///< of solves after which weights change
-  SolverOptions first_;  ///< of the first, after which they may not
+  SolverOptions inner_;  ///< for solves after which weights change
+  SolverOptions first_;  ///< for those after which they may not
   std::string stopping_ = "all loops agree";
 };
 

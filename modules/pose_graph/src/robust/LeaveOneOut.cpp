@@ -9,7 +9,7 @@ namespace lamp {
 
 namespace {
 
-/** Squared distance beyond which it does not matter how much more it is: no threshold is larger. */
+/** Squared distances beyond this need not be exact: no threshold is larger. */
 constexpr double kFarAway = 100.0;
 
 /** Blocks of the inverse of the normal equations' matrix, for rows that terms join. */
@@ -18,12 +18,13 @@ class InverseBlocks {
  public:
   using Block = typename BlockMatrix<kDof>::Block;
 
-  /** \param few whether so few blocks will be asked for that their columns cost less than all. */
+  /** \param few whether so few blocks will be asked for that computing their columns costs less
+   * than computing all blocks. */
   InverseBlocks(const BlockCholesky<kDof>& cholesky, bool few) : cholesky_(cholesky) {
     if (!few) selected_ = selectedInverse(cholesky);
   }
 
-  /** Of any two rows. */
+  /** The block of any two rows, joined by a term or not. */
   Block apart(int row, int column) { return product(columnOf(row), columnOf(column)); }
 
   Block operator()(int row, int column) {
@@ -59,7 +60,7 @@ class InverseBlocks {
   std::unordered_map<int, Column> columns_;
 };
 
-/** A term beside the solution. */
+/** A term compared with the solution. */
 template <class Space>
 struct Beside {
   using Block = typename Space::Jacobian;
@@ -75,7 +76,7 @@ struct Beside {
     error = of.error(poses[of.from], poses[of.to], of.isUnary() ? nullptr : &d_from, &d_to);
   }
 
-  /** S = J H⁻¹ Jᵀ without the parts that both ends have in common. */
+  /** S = J H⁻¹ Jᵀ without the parts that involve both ends. */
   Block ofEnds(InverseBlocks<Space::kDof>& inverse) const {
     Block S = Block::Zero();
     if (to >= 0) S += d_to * inverse(to, to) * d_to.transpose();
@@ -88,22 +89,23 @@ struct Beside {
   }
   bool twoEnds() const { return to >= 0 && from >= 0; }
 
-  /** eᵀ (Ω⁻¹ + sign S)⁻¹ e, which a singular Ω does not harm. */
+  /** eᵀ (Ω⁻¹ + sign S)⁻¹ e, written so that Ω may be singular. */
   double distance2(const Block& S, double sign) const {
     constexpr double kLeastRedundancy = 1e-9;
     const Block M = (1.0 + kLeastRedundancy) * Block::Identity() + sign * S * term.information;
     return error.dot(term.information * M.partialPivLu().solve(error));
   }
 
-  /** Of a term that takes part, which the others have less of. */
+  /** The distance of a term that takes part: its own share in the solution is taken out. */
   double withoutIt(InverseBlocks<Space::kDof>& inverse) const {
     Block S = ofEnds(inverse);
     if (twoEnds()) S += ofBoth(inverse(from, to));
     return distance2(S, -1.0);
   }
 
-  /** Of a term that takes no part. Its ends may not be joined in the structure; a lower bound that
-   * needs no more than that (cov(a - b) <= 2 cov(a) + 2 cov(b)) is enough if it is large. */
+  /** The distance of a term that takes no part. The structure may not join its ends, so a lower
+   * bound that does not need their cross-covariance comes first (cov(a - b) <= 2 cov(a) + 2
+   * cov(b)): if large, it is enough. */
   double beyond(InverseBlocks<Space::kDof>& inverse, double enough) const {
     const Block S = ofEnds(inverse);
     if (!twoEnds()) return distance2(S, 1.0);

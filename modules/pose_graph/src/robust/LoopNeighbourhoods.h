@@ -9,15 +9,15 @@
 
 namespace lamp {
 
-/** Loop closures of the same two chains, by where their ends are. */
+/** Finds loop closures between the same two chains by where their ends are. */
 class LoopNeighbourhoods {
  public:
-  /** \param nodes key nodes of odometry within which both ends of neighbours lie.
-   * \param chains which must outlive it. */
+  /** \param chains must outlive this.
+   * \param nodes how many key nodes apart both ends of neighbours may lie. */
   LoopNeighbourhoods(const OdometryChains& chains, int nodes)
       : chains_(chains), nodes_(static_cast<uint32_t>(nodes)) {}
 
-  /** Two chains, and steps of `nodes` along each. */
+  /** Two chains, and the place along each in steps of `nodes`. */
   using Cell = std::tuple<int, int, int64_t, int64_t>;
 
   Cell cell(const DirectedLoop& loop) const {
@@ -27,7 +27,7 @@ class LoopNeighbourhoods {
 
   void add(const DirectedLoop& loop) { cells_[cell(loop)].push_back(loop); }
 
-  /** The `most` nearest neighbours, the nearest first. */
+  /** Up to `most` of the nearest neighbours, the nearest first. */
   std::vector<DirectedLoop> nearest(const DirectedLoop& loop, size_t most) const;
 
  private:

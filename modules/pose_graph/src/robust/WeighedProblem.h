@@ -16,12 +16,12 @@ struct WeighedLoop {
   double threshold;  ///< the largest squared residual of an inlier
   double weight = 1.0;
   bool graduated = true;  ///< else it keeps its weight until the last stage
-  bool left_out = false;  ///< the truncated cost was lower without it
-  bool taken_in = false;  ///< was rejected, but promised to lower the truncated cost
+  bool left_out = false;  ///< because the truncated cost was lower without it
+  bool taken_in = false;  ///< after a rejection, because it promised to lower that cost
 };
 
-/** A pose problem, the weights of its loops, and what has been seen while solving it again and
- * again. Squared residuals and distances of loops are in units of their thresholds. */
+/** A pose problem, the weights of its loops, and a record of its repeated solves. Squared residuals
+ * and distances of loops are in units of their thresholds. */
 class WeighedProblem {
  public:
   /** \param start whose admitted edges take part, with weight 1 at first. All must outlive this. */
@@ -47,11 +47,11 @@ class WeighedProblem {
 
   void setPoses(const std::vector<Pose3>& poses) { problem_->setPoses(poses); }
   std::vector<Pose3> poses() const { return problem_->poses(); }
-  /** \param full the tolerance of a solve to the end. */
+  /** \param full the tolerance with which a solve counts as complete. */
   void solve(const SolverOptions& options, double full);
-  /** The last solve went to the end, with the weights as they are. */
+  /** Whether the last solve was complete, with the weights as they are. */
   bool solved() const { return solved_; }
-  /** Weighted, after the last solve. */
+  /** The weighted cost after the last solve. */
   double cost() const { return last_.final_cost; }
 
   double residual2(const WeighedLoop& loop) const {
@@ -65,13 +65,13 @@ class WeighedProblem {
   /** PoseProblem::leaveOneOut2(). */
   std::vector<double> distancesToOthers2(const std::vector<WeighedLoop*>& loops);
 
-  /** Of the poses as they are, with the verdicts that make it least. */
+  /** The truncated cost of the current poses, with the verdicts that make it least. */
   double truncatedCost() const;
-  /** The least truncated cost of all solves so far, and where it was. */
+  /** The least truncated cost of all solves so far, and the poses that have it. */
   double bestCost() const { return best_cost_; }
   const std::vector<Pose3>& bestPoses() const { return best_poses_; }
-  /** The residuals of the last solve are larger than the stated covariances let them be: there are
-   * false loops, or this is not the least of the minima. */
+  /** Whether the residuals of the last solve are larger than the stated covariances allow: there
+   * are false loops, or this is not the global minimum. */
   bool fitsPoorly() const;
 
   /** Poses, verdicts and counts. */
@@ -91,7 +91,7 @@ class WeighedProblem {
   std::vector<Pose3> best_poses_;
 };
 
-/** 0 for none. */
+/** The largest value; 0 if there are none. */
 double largest(const std::vector<double>& values);
 
 }  // namespace lamp

@@ -10,15 +10,15 @@ namespace lamp {
 
 namespace {
 
-/** Kernels may read behind the last block. */
+/** Kernels may read beyond the last block. */
 constexpr size_t kSpare = 1;
 /** Pivots below this share of their diagonal element are rounding errors. */
 constexpr double kLeastPivot = 1e-14;
-/** Numbers in the rows of a panel, and rows, from which on copying them for tiles pays. */
+/** Copying a part of a panel for tiles pays if it is this many numbers wide, and as many high. */
 constexpr int kThick = 24;
 
-/** Replaces a symmetric block, of which the lower triangle counts, by the inverse of its Cholesky
- * factor. \param diagonal what pivots are compared with. \return false if one is too small. */
+/** Replaces a symmetric block, given by its lower triangle, by the inverse of its Cholesky factor.
+ * \param diagonal what pivots are compared with. \return false if a pivot is too small. */
 template <int kSize>
 bool invertFactor(Eigen::Matrix<double, kSize, kSize>& block,
                   const Eigen::Matrix<double, kSize, 1>& diagonal) {
@@ -103,7 +103,7 @@ void BlockCholesky<kSize>::wait(int panel, int next_row) {
   next_waiting_[panel] = std::exchange(first, panel);
 }
 
-/** What the columns on the left change in a panel. */
+/** Subtracts from a panel what the columns on its left contribute. */
 template <int kSize>
 void BlockCholesky<kSize>::subtractLeft(int panel) {
   const int panel_end = symbolic_.panelBegin(panel) + symbolic_.panelWidth(panel);
@@ -118,7 +118,8 @@ void BlockCholesky<kSize>::subtractLeft(int panel) {
   }
 }
 
-/** The first columns of a panel change those that stand in its rows `begin` to `end`. */
+/** Subtracts what the first `columns` of panel `left` contribute to the columns that its rows
+ * `begin` to `end` stand for. */
 template <int kSize>
 void BlockCholesky<kSize>::subtract(int left, int columns, int begin, int end) {
   if (kSize * columns >= kThick && kSize * (symbolic_.panelHeight(left) - begin) >= kThick)
@@ -205,8 +206,8 @@ void BlockCholesky<kSize>::solve(Eigen::VectorXd& x) const {
 template <int kSize>
 std::vector<typename BlockCholesky<kSize>::InverseBlock> BlockCholesky<kSize>::inverseColumn(
     int row) const {
-  // A column of the factor reaches none but its ancestors in the elimination tree, of which the
-  // first below the diagonal is the parent.
+  // A column has entries only at its ancestors in the elimination tree. The parent is the first
+  // entry below the diagonal.
   const int* const rows = symbolic_.rows().data();
   std::vector<InverseBlock> column;
   std::vector<size_t> at(symbolic_.size());

@@ -18,7 +18,7 @@ class BlockCholesky {
  public:
   using Block = typename BlockMatrix<kSize>::Block;
 
-  /** Takes the structure; the matrix of a later factorize() must have the same pairs. */
+  /** Takes the structure; matrices to be factorised must have the same pairs. */
   explicit BlockCholesky(const BlockMatrix<kSize>& structure);
   BlockCholesky(const BlockMatrix<kSize>& structure, const BlockKernels& kernels);
 
@@ -60,9 +60,9 @@ class BlockCholesky {
   TileProducts<kSize> tiles_;
   std::vector<Block> blocks_;
   std::vector<Eigen::Matrix<double, kSize, 1>> diagonal_;  ///< of the damped matrix, by place
-  std::vector<int> position_;  ///< by row: its number in the panel at work
-  /** Lists of the finished panels by the next panel that they change: the first of each list, and
-   * by panel the one behind it and the number of its row there. */
+  std::vector<int> position_;  ///< by row: its index in the current panel
+  /** For each panel, a linked list of the finished panels that change it next: by panel, the first
+   * of its list; by finished panel, its successor there, and which of its rows comes next. */
   std::vector<int> first_waiting_, next_waiting_, next_row_;
 };
 

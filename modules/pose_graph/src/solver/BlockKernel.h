@@ -8,8 +8,8 @@ namespace lamp {
  *
  * for each i below `count`: target[position[rows[i]]] -= left[i] * rightᵀ
  *
- * Blocks are square, column-major and stored one after another. Of those of 3 x 3, the number
- * behind the last may be read. */
+ * Blocks are square, column-major and stored one after another. With blocks of 3 x 3, the number
+ * after the last block may be read. */
 using SubtractProducts = void (*)(const double* left, const double* right, const int* rows,
                                   size_t count, const int* position, double* target);
 
@@ -31,7 +31,7 @@ struct BlockKernels {
 };
 
 #if defined(__x86_64__)
-/** Too small for wider registers: that of AVX-512, too. */
+/** Serves AVX-512, too: the blocks are too small for wider registers. */
 void subtract3Avx2(const double* left, const double* right, const int* rows, size_t count,
                    const int* position, double* target);
 #endif

@@ -45,8 +45,8 @@ struct Avx2Vector {
 
 }  // namespace
 
-/** Columns of three numbers in registers of four, of which the last is the next column's first:
- * each store overwrites what the one before it has spoilt. */
+/** Columns of three numbers in registers of four, whose last is the next column's first: each store
+ * repairs what the one before it has spoilt. */
 void subtract3Avx2(const double* left, const double* right, const int* rows, size_t count,
                    const int* position, double* target) {
   constexpr int kSize = 3;

@@ -5,7 +5,7 @@
 
 namespace lamp {
 
-/** Row and column of a block below or above the diagonal of a symmetric matrix. */
+/** Row and column of an off-diagonal block of a symmetric matrix. */
 struct BlockPair {
   int row, column;
 
@@ -24,7 +24,7 @@ struct BlockMatrix {
   std::vector<BlockPair> pairs;  ///< each pair of rows at most once
   std::vector<Block> off_diagonal;
 
-  /** What Marquardt's damping scales with: the diagonal elements, which it needs above zero. */
+  /** The scale of Marquardt's damping: the diagonal elements, kept above zero. */
   auto scale(size_t row) const { return diagonal[row].diagonal().cwiseMax(1e-6); }
   /** xᵀ D x, where D has the scales on its diagonal. */
   double scaledNorm2(const Eigen::VectorXd& x) const {

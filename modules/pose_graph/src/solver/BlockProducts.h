@@ -2,14 +2,14 @@
 
 #include <cstddef>
 
-// Included by the kernels of each instruction set, which are compiled with flags of their own: no
-// header may come in here whose inline functions other files share.
+// Included by the kernels of each instruction set, which are compiled with flags of their own: it
+// must not include a header whose inline functions other files share.
 
 namespace lamp {
 
 namespace {
 
-/** Pairs of numbers, which each processor of 64 bits can multiply at once. */
+/** Pairs of numbers, which every 64-bit processor can multiply at once. */
 using Pair = double __attribute__((vector_size(16)));
 
 struct Column3 {
@@ -34,8 +34,8 @@ struct Column3 {
 
 }  // namespace
 
-/** BlockKernels' loop. `Column` holds one column of a block in registers; of `Column::kAtOnce`
- * columns the sums fit there. */
+/** The loop of BlockKernels. `Column` holds one column of a block in registers, where the sums of
+ * `Column::kAtOnce` columns fit. */
 template <int kSize, class Column>
 void subtractProducts(const double* left, const double* right, const int* rows, size_t count,
                       const int* position, double* target) {

@@ -2,8 +2,8 @@
 
 #include "solver/BlockKernel.h"
 
-// Included by the kernels of each instruction set, which are compiled with flags of their own: no
-// header may come in here whose inline functions other files share.
+// Included by the kernels of each instruction set, which are compiled with flags of their own: it
+// must not include a header whose inline functions other files share.
 
 namespace lamp {
 

@@ -23,7 +23,7 @@ void setIdentity(double* row_major) {
 
 /** Right perturbation of a pose. Cost functions give their Jacobians in the tangent space, padded
  * with zero columns; the "plus Jacobian" only has to cut the padding off.
- * \tparam kDof of the tangent's coordinates, the first so many move. */
+ * \tparam kDof how many of the tangent's coordinates move, from the first on. */
 template <class Space, int kDof>
 class PoseManifold : public ceres::Manifold {
  public:
@@ -51,7 +51,7 @@ class PoseManifold : public ceres::Manifold {
   }
 };
 
-/** Turns of a pose in space about the world's level axes, in place. */
+/** Rotations of a pose in space about the world's horizontal axes; the position stays. */
 class TiltManifold : public ceres::Manifold {
  public:
   int AmbientSize() const override { return Se3::kSize; }
@@ -64,7 +64,7 @@ class TiltManifold : public ceres::Manifold {
     return true;
   }
   bool PlusJacobian(const double* x, double* jacobian) const override {
-    // A turn d of the world is one of Rᵀ d in the pose's own frame.
+    // A rotation d in the world is Rᵀ d in the pose's own frame.
     Eigen::Map<Eigen::Matrix<double, Se3::kSize, 2, Eigen::RowMajor>> J(jacobian);
     J.setZero();
     J.middleRows<3>(3) = Se3::load(x).linear().transpose().leftCols<2>();

@@ -25,7 +25,7 @@ class CeresProblem : public PoseProblem {
   std::vector<Pose3> poses() const override;
   void setWeight(EdgeIndex edge, double weight) override { terms_[edge].weight = weight; }
   double chi2(EdgeIndex edge) const override;
-  /** By our own solver's equations: Ceres has the covariances of all pairs, but no quick way. */
+  /** By our own solver's equations: Ceres offers the covariances of any pairs, but slowly. */
   std::vector<double> leaveOneOut2(const std::vector<EdgeIndex>& edges) override;
   SolveSummary solve(const SolverOptions& options) override;
 

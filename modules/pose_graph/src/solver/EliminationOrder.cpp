@@ -56,8 +56,8 @@ std::vector<int> minimumDegreeOrder(int size, const std::vector<BlockPair>& pair
 }
 
 std::vector<int> nestedDissectionOrder(int size, const std::vector<BlockPair>& pairs) {
-  if (pairs.empty()) return minimumDegreeOrder(size, pairs);  // METIS asks for an edge
-  // METIS draws from the C library's generator, which it seeds: one call at a time.
+  if (pairs.empty()) return minimumDegreeOrder(size, pairs);  // METIS needs an edge
+  // METIS seeds the C library's random generator and draws from it: one call at a time.
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
   Neighbours neighbours(size, pairs);
@@ -70,7 +70,7 @@ std::vector<int> nestedDissectionOrder(int size, const std::vector<BlockPair>& p
                                   options, row_at_place.data(), place.data());
   if (status == METIS_ERROR_MEMORY) throw std::bad_alloc();
   if (status == METIS_OK) return {place.begin(), place.end()};
-  // METIS takes SIGTERM for an error of its own: hand it on, and do without METIS.
+  // METIS takes SIGTERM for an error of its own: pass it on, and do without METIS.
   std::raise(SIGTERM);
   return minimumDegreeOrder(size, pairs);
 }

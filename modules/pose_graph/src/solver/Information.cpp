@@ -8,14 +8,15 @@ namespace lamp {
 
 namespace {
 
-/** Eigenvalues below this share of the largest, of a matrix scaled to a unit diagonal, are none. */
+/** Eigenvalues below this share of the largest count as zero, once the matrix has a unit
+ * diagonal. */
 constexpr double kNone = 1e-9;
 constexpr double kLeastInformation = 1e-6;
 constexpr double kOutOfPlaneVariance = 1e-9;
 
 template <class Matrix>
 int rank(const Matrix& information) {
-  // Metres and radians differ widely.
+  // Values in metres and in radians differ widely.
   const auto scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse().eval();
   const Matrix scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled, Eigen::EigenvaluesOnly);

@@ -12,7 +12,7 @@ constexpr double kFirstDamping = 1e-12;
 /** A smaller damping hardly changes a step that has failed. */
 constexpr double kLeastUseful = 1e-8;
 constexpr double kMaxDamping = 1e16;
-/** A sum of squared Mahalanobis distances that means nothing. */
+/** A sum of squared Mahalanobis distances that is nothing but rounding. */
 constexpr double kNoCost = 1e-15;
 
 const char* const kConverged = "converged: the cost falls by less than function_tolerance";

@@ -6,20 +6,20 @@
 
 namespace lamp {
 
-/** A nonlinear least-squares problem, as far as the minimisers know it. Costs are half the sums of
+/** A nonlinear least-squares problem as the minimisers see it. Costs are half the sums of
  * squares. */
 class LeastSquares {
  public:
   virtual ~LeastSquares() = default;
 
-  /** Takes the normal equations H d = -g at the estimate. \return the cost there. */
+  /** Sets up the normal equations H d = -g at the estimate. \return the cost there. */
   virtual double linearize() = 0;
   /** Solves (H + damping · D) d = -g, D the diagonal of H.
    * \return by how much d lowers the linearised cost; none if the matrix is singular. */
   virtual std::optional<double> computeStep(double damping) = 0;
-  /** Cost at the estimate moved by the last step. */
+  /** The cost after the last step. */
   virtual double costAfterStep() = 0;
-  /** Moves the estimate there. */
+  /** Moves the estimate by the last step. */
   virtual void acceptStep() = 0;
 };
 
@@ -27,7 +27,7 @@ class LeastSquares {
  * non-linear least squares problems", 2004, algorithm 3.16), which follows the gain ratio. */
 SolveSummary minimizeLevenbergMarquardt(LeastSquares& problem, const SolverOptions& options);
 
-/** Gauss-Newton: each step is taken. */
+/** Gauss-Newton: every step is taken. */
 SolveSummary minimizeGaussNewton(LeastSquares& problem, const SolverOptions& options);
 
 }  // namespace lamp

@@ -56,7 +56,8 @@ double NormalEquations<Space>::linearize(const std::vector<Pose>& poses) {
   return cost_;
 }
 
-/** The gradient is zero along these directions, and so is the step then, whatever the stiffness. */
+/** The gradient is zero in directions that no term knows, and so is the step, whatever the
+ * stiffness given to them. */
 template <class Space>
 void NormalEquations<Space>::holdWhatNoTermKnows(const std::vector<Pose>& poses) {
   for (int row = unknowns_.first_landmark_row; row < unknowns_.size; ++row)

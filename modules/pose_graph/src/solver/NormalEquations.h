@@ -8,8 +8,8 @@
 
 namespace lamp {
 
-/** The normal equations H d = -g of the terms that have a weight. Their structure is taken once and
- * stays; the terms' weights may change, but not become zero or stop being so. */
+/** The normal equations H d = -g of the terms that have a weight. The structure is fixed once:
+ * weights may change later, but not to or from zero. */
 template <class Space>
 class NormalEquations {
  public:
@@ -19,7 +19,7 @@ class NormalEquations {
 
   NormalEquations(const std::vector<Term>& terms, const Unknowns& unknowns);
 
-  /** Takes H and g at the poses. \return the cost. */
+  /** Computes H and g at the poses. \return the cost. */
   double linearize(const std::vector<Pose>& poses);
   double cost(const std::vector<Pose>& poses) const;
 

@@ -57,12 +57,13 @@ Eigen::Vector3d bearingRangeError(const Eigen::Vector3d& measured, const Eigen::
   return (distance - range) * u + range * log.factor * across;
 }
 
-double rangeError(double measured_m, const Eigen::Vector3d& way, Eigen::RowVector3d* d_way) {
+double rangeError(double measured_m, const Eigen::Vector3d& between,
+                  Eigen::RowVector3d* d_between) {
   constexpr double kSmallDistance = 1e-9;
-  const double distance = way.norm();
-  if (d_way)
-    *d_way = distance > kSmallDistance ? Eigen::RowVector3d(way.transpose() / distance)
-                                       : Eigen::RowVector3d::UnitX();
+  const double distance = between.norm();
+  if (d_between)
+    *d_between = distance > kSmallDistance ? Eigen::RowVector3d(between.transpose() / distance)
+                                           : Eigen::RowVector3d::UnitX();
   return distance - measured_m;
 }
 

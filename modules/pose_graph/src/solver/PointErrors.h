@@ -13,13 +13,13 @@ namespace lamp {
 Eigen::Vector3d gravityError(const Eigen::Matrix3d& measured_world_R_base,
                              const Eigen::Matrix3d& world_R_base, Eigen::Matrix3d* d_rotation);
 
-/** How far off `estimated` is in distance, along `measured`, and in direction, across it, as an arc
- * at the measured distance; both are seen from the sensor.
+/** How far off `estimated` is: in distance, along `measured`, and in direction, across it, as an
+ * arc at the measured distance. Both are vectors from the sensor.
  * \param d_estimated with respect to `estimated`. */
 Eigen::Vector3d bearingRangeError(const Eigen::Vector3d& measured, const Eigen::Vector3d& estimated,
                                   Eigen::Matrix3d* d_estimated);
 
-/** \param d_way with respect to the way from one antenna to the other. */
-double rangeError(double measured_m, const Eigen::Vector3d& way, Eigen::RowVector3d* d_way);
+/** \param between the vector from one antenna to the other, metres. */
+double rangeError(double measured_m, const Eigen::Vector3d& between, Eigen::RowVector3d* d_between);
 
 }  // namespace lamp

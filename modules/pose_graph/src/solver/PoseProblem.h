@@ -18,8 +18,8 @@ struct SolveSummary {
   double final_cost = 0;
 };
 
-/** The least-squares problem of a pose graph, with a weight for each edge. Solved again and again
- * with other weights and starts; edges of weight zero are no part of it then. */
+/** The least-squares problem of a pose graph, with a weight for each edge. It is solved repeatedly
+ * with other weights and starts; edges of weight zero take no part. */
 class PoseProblem {
  public:
   virtual ~PoseProblem() = default;
@@ -35,11 +35,11 @@ class PoseProblem {
   virtual double chi2(EdgeIndex edge) const = 0;
   /** For each of some edges, the squared Mahalanobis distance of its measurement to what all other
    * edges say, to first order about poses(), an optimum (Baarda, "A testing procedure for use in
-   * geodetic networks", 1968): by so much the sum of squares falls without the edge, or rises with
-   * one that takes no part. The residual of the former may be small though that is large, where the
-   * others have given way; that of the latter large though that is small, where they would. Of
-   * edges that take no part, a lower bound if it is beyond any threshold. Zeros if the normal
-   * equations are singular. */
+   * geodetic networks", 1968): by this much the sum of squares falls without the edge, or rises
+   * with an edge that takes no part. It may be large although the edge's residual is small, because
+   * the others have given way; and small although the residual of an edge that takes no part is
+   * large, because they would. For edges that take no part, a lower bound if that is beyond any
+   * threshold. Zeros if the normal equations are singular. */
   virtual std::vector<double> leaveOneOut2(const std::vector<EdgeIndex>& edges) = 0;
   /** Moves poses() to a minimum; leaves them alone if the summary is not usable. */
   virtual SolveSummary solve(const SolverOptions& options) = 0;

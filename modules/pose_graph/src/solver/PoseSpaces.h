@@ -18,7 +18,7 @@ struct PosedPoint {
 struct Se3 {
   static constexpr int kDof = 6;
   static constexpr int kSize = 7;
-  /** Of the tangent's coordinates, the first so many move the position. */
+  /** How many of the tangent's coordinates move the position; they come first. */
   static constexpr int kPositionDof = 3;
   using Pose = Pose3;
   using Tangent = Vector6d;
@@ -40,7 +40,8 @@ struct Se3 {
                                Jacobian* d_from, Jacobian* d_to);
   /** `Log(measured⁻¹ · pose)`. */
   static Tangent priorError(const Pose& measured, const Pose& pose, Jacobian* d_pose);
-  /** Its two components at right angles to gravity, in the rotation's coordinates. */
+  /** The two components of the rotation error at right angles to gravity, in the rotation's
+   * coordinates. */
   static Tangent gravityError(const Pose& measured, const Pose& pose, Jacobian* d_pose);
 
   /** `T · local`. */
@@ -49,11 +50,11 @@ struct Se3 {
   static PosedPoint<kDof> toLocal(const Pose& T, const Eigen::Vector3d& world);
   static Eigen::Vector3d position(const Pose& T) { return T.translation(); }
   static Eigen::Matrix3d rotation(const Pose& T) { return T.linear(); }
-  /** Projects tangents on what gravity says nothing of. */
+  /** Projects tangents onto the directions about which gravity says nothing. */
   static Jacobian positionAndYaw(const Pose& T);
 };
 
-/** A pose in the plane. Sine and cosine of the yaw are kept: they cost more than all the rest. */
+/** A pose in the plane. Sine and cosine of the yaw are stored: they cost more than all the rest. */
 struct Pose2 {
   Pose2() = default;
   Pose2(double x, double y, double yaw_rad);

@@ -9,7 +9,7 @@
 namespace lamp {
 
 /** An edge of the graph as the solvers see it: one term of the sum of squares. Landmarks are poses
- * behind those of the key nodes, of which only the position counts. */
+ * after those of the key nodes; only their positions count. */
 template <class Space>
 struct PoseTerm {
   using Pose = typename Space::Pose;
@@ -84,16 +84,16 @@ struct PoseTerm {
                         Jacobian* d_to) const {
     const auto start = Space::toWorld(from_pose, from_p_sensor);
     const auto end = Space::toWorld(to_pose, to_p_sensor);
-    Eigen::RowVector3d d_way;
+    Eigen::RowVector3d d_between;
     Tangent result = Tangent::Zero();
-    result[0] = rangeError(Space::position(measured).x(), end.p - start.p, &d_way);
+    result[0] = rangeError(Space::position(measured).x(), end.p - start.p, &d_between);
     if (d_from) {
       d_from->setZero();
-      d_from->row(0) = -d_way * start.d_pose;
+      d_from->row(0) = -d_between * start.d_pose;
     }
     if (d_to) {
       d_to->setZero();
-      d_to->row(0) = d_way * end.d_pose;
+      d_to->row(0) = d_between * end.d_pose;
     }
     return result;
   }

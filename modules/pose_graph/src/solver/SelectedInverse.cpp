@@ -14,7 +14,7 @@ namespace {
  *
  *   Z_RJ = -Z_RR Y   and   Z_JJ = L_JJ⁻ᵀ L_JJ⁻¹ - Yᵀ Z_RJ.
  *
- * The rows of a panel are all neighbours in the factor, so that Z_RR is there. */
+ * The rows of a panel are all neighbours in the factor, so Z_RR is known already. */
 template <int kSize>
 class Inversion {
  public:
@@ -46,7 +46,8 @@ class Inversion {
   }
 
  private:
-  /** Rows below a single column, as in graphs that are nearly chains, that are not worth tiles. */
+  /** So few rows below a single column, as in graphs that are nearly chains, are not worth
+   * tiles. */
   static constexpr int kFew = 4;
 
   using Operand = typename TileProducts<kSize>::Operand;
@@ -60,7 +61,7 @@ class Inversion {
   Block& triangle(int row, int column) { return triangle_[row * width_ + column]; }
   Block& scaled(int row, int column) { return scaled_[row * width_ + column]; }
 
-  /** All of a panel of one column. */
+  /** Does all steps for a panel of one column. */
   void invertColumn() {
     const Block& inverse_factor = factor(0, 0);
     std::array<Block, kFew> y;
@@ -81,7 +82,7 @@ class Inversion {
     }
   }
 
-  /** L_JJ⁻¹, negative. */
+  /** -L_JJ⁻¹. */
   void invertTriangle() {
     triangle_.resize(width_ * width_);
     for (int column = 0; column < width_; ++column) {
@@ -109,7 +110,7 @@ class Inversion {
         [&](int row, int column) { return &scaled(row, column); });
   }
 
-  /** Where the panels of the rows below have these rows. */
+  /** Finds these rows in the panels of the rows below. */
   void findRows() {
     positions_.clear();
     positions_of_.resize(below_);
@@ -166,9 +167,9 @@ class Inversion {
   const std::vector<Block>& factor_;
   TileProducts<kSize> tiles_;
   std::vector<Block> inverse_;
-  int first_ = 0, width_ = 0, below_ = 0;  ///< of the panel at work
+  int first_ = 0, width_ = 0, below_ = 0;  ///< of the current panel
   const int* rows_ = nullptr;              ///< those below it
-  std::vector<Block> triangle_, scaled_;   ///< L_JJ⁻¹, negative, and Y, row by row
+  std::vector<Block> triangle_, scaled_;   ///< -L_JJ⁻¹ and Y, row by row
   std::vector<int> positions_, positions_of_;
 };
 

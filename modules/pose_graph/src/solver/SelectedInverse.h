@@ -6,9 +6,9 @@
 
 namespace lamp {
 
-/** The blocks of a matrix's inverse where its factor has blocks, in their order: for each pair of
- * the matrix, and more (Erisman, Tinney, "On computing certain elements of the inverse of a sparse
- * matrix", CACM 1975). About twice the work of a factorisation. */
+/** The blocks of a matrix's inverse where its factor has blocks, in the factor's order: all pairs
+ * of the matrix, and more (Erisman, Tinney, "On computing certain elements of the inverse of a
+ * sparse matrix", CACM 1975). Takes about twice as long as a factorisation. */
 template <int kSize>
 std::vector<typename BlockMatrix<kSize>::Block> selectedInverse(
     const BlockCholesky<kSize>& cholesky);

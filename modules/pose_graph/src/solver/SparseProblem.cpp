@@ -105,7 +105,7 @@ double SparseProblem<Space>::costAfterStep() {
   return other;
 }
 
-/** Each link gets the error that the linearised problem says. */
+/** Gives each link of odometry the error that the linearised problem predicts. */
 template <class Space>
 std::vector<typename Space::Pose> SparseProblem<Space>::movedAsChains() const {
   constexpr int kDof = Space::kDof;

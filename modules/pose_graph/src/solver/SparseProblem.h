@@ -13,11 +13,11 @@ namespace lamp {
 /** A pose problem for our own sparse block solver.
  *
  * A step moves each pose by itself. If the cost falls by less than half of what the linearised
- * problem promised, the step is also taken as changes of the links of odometry, from the first key
- * node on: a long piece that turns about a far point stays as long as it is then, instead of being
- * drawn along the tangent. (Olson, Leonard, Teller, "Fast iterative alignment of pose graphs with
- * poor initial estimates", ICRA 2006, on such a state space. To first order both are the same.)
- * The lower one counts. */
+ * problem promised, the step is also tried as changes to the links of odometry, from the first key
+ * node on: a long piece that turns about a distant point then keeps its length instead of being
+ * stretched along the tangent (on such a state space: Olson, Leonard, Teller, "Fast iterative
+ * alignment of pose graphs with poor initial estimates", ICRA 2006). To first order both are the
+ * same; the one with the lower cost is taken. */
 template <class Space>
 class SparseProblem : public PoseProblem, private LeastSquares {
  public:
@@ -37,7 +37,7 @@ class SparseProblem : public PoseProblem, private LeastSquares {
  private:
   using Pose = typename Space::Pose;
 
-  /** So small that the damped equations are as good as the others. */
+  /** Damping so small that the damped equations are as good as the undamped ones. */
   static constexpr double kNoDamping = 1e-9;
 
   void build();

@@ -4,7 +4,7 @@
 
 namespace lamp {
 
-/** A square root S of a positive semi-definite matrix: m = Sᵀ S. Singular matrices are welcome. */
+/** A square root S of a positive semi-definite matrix: m = Sᵀ S. The matrix may be singular. */
 template <class Matrix>
 Matrix squareRoot(const Matrix& m) {
   // m = Pᵀ L D Lᵀ P. P is applied from the left: from the right, Eigen's transpositions act as

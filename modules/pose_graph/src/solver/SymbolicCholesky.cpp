@@ -9,11 +9,11 @@ namespace lamp {
 
 namespace {
 
-/** Products of blocks for each column from which on nested dissection may save more time than it
+/** With this many products of blocks per column, nested dissection may save more time than it
  * takes. */
 constexpr double kWorthDissecting = 300;
 
-/** Many short lists of numbers, without memory of their own for each. */
+/** Many short lists of numbers that share their memory. */
 class Lists {
  public:
   explicit Lists(int count) : first_(count, -1) {}
@@ -56,8 +56,8 @@ std::vector<int> eliminationTree(const std::vector<int>& place,
   return parent;
 }
 
-/** The new places of columns after which each subtree is in one piece, its root the last. The
- * elimination does the same work; what can be one panel is side by side. */
+/** New places for the columns, such that each subtree is in one piece with its root last. The
+ * elimination does the same work, but columns that can make one panel are side by side. */
 std::vector<int> postorder(const std::vector<int>& parent) {
   const int size = static_cast<int>(parent.size());
   std::vector<int> subtree(size, 1), place(size), last_free(size);

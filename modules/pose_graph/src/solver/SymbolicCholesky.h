@@ -24,7 +24,7 @@ class SymbolicCholesky {
   /** Entries of a column of the factor in rows(): the diagonal, then downwards. */
   int columnBegin(int column) const { return column_begin_[column]; }
   int columnEnd(int column) const { return column_begin_[column + 1]; }
-  /** Of a row in a column, both by place, the row below or on the diagonal; it must be there. */
+  /** The entry of a row in a column, both by place, on the diagonal or below; it must exist. */
   int entry(int row, int column) const;
   /** Places of the rows of all blocks of the factor, column by column. */
   const std::vector<int>& rows() const { return rows_; }
@@ -34,11 +34,11 @@ class SymbolicCholesky {
   /** Columns of a panel. */
   int panelBegin(int panel) const { return panels_[panel].begin; }
   int panelWidth(int panel) const { return panels_[panel].width; }
-  /** Places of a panel's rows: those of its first column, of which the first are the columns. */
+  /** Places of a panel's rows: those of its first column. The panel's own columns come first. */
   const int* panelRows(int panel) const { return rows_.data() + panels_[panel].entry; }
   int panelHeight(int panel) const { return panels_[panel].height; }
-  /** Entry in a column of the first of panelRows(), from which the others are counted; those above
-   * the diagonal are not stored. */
+  /** The entry that the first of panelRows() would have in a column; the other rows follow. Those
+   * above the diagonal are not stored. */
   int panelEntry(int column) const { return panel_entry_[column]; }
 
   /** Where each of the pairs lies in the factor. */
@@ -48,7 +48,7 @@ class SymbolicCholesky {
   };
   const std::vector<Target>& targets() const { return targets_; }
 
-  /** Products of blocks that a factorisation takes. */
+  /** How many products of blocks a factorisation takes. */
   double products() const { return products_; }
 
  private:

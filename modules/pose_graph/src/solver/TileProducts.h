@@ -9,15 +9,15 @@
 
 namespace lamp {
 
-/** Products of matrices of blocks, as large as they may be, by BlockKernels' tiles: blocks are
- * copied to where a tile reads them one after the other (Goto, van de Geijn, "Anatomy of
- * high-performance matrix multiplication", ACM TOMS 2008). */
+/** Products of block matrices of any size by BlockKernels' tiles: blocks are copied into the order
+ * in which a tile reads them (Goto, van de Geijn, "Anatomy of high-performance matrix
+ * multiplication", ACM TOMS 2008). */
 template <int kSize>
 class TileProducts {
  public:
   using Block = typename BlockMatrix<kSize>::Block;
 
-  /** Blocks that the copies keep in the cache: the most columns of a product. */
+  /** The most columns of a product: with so many blocks the copies stay in the cache. */
   static constexpr int kMaxColumns = 192 / kSize;
 
   explicit TileProducts(const BlockKernels& kernels)
@@ -32,8 +32,8 @@ class TileProducts {
   };
 
   /** target(i, j) -= Σ left(i, k) right(j, k)ᵀ, for i < rows, j < columns, k < depth.
-   * \param left, right give an Operand. \param target gives a block, null for one that is not
-   * wanted. \param columns kMaxColumns at most. */
+   * \param left, right give an Operand. \param target gives a block, or null for one that is not
+   * wanted. \param columns at most kMaxColumns. */
   template <class Left, class Right, class Target>
   void subtract(int rows, int columns, int depth, const Left& left, const Right& right,
                 const Target& target) {
@@ -58,7 +58,7 @@ class TileProducts {
   }
 
  private:
-  /** Products of blocks from which on copying pays. */
+  /** From this many products of blocks on, copying pays. */
   static constexpr int kFew = 12;
   /** Blocks in a column and a row of a tile. */
   static constexpr int kRows = kTileRows / kSize, kColumns = kTileColumns / kSize;

@@ -6,7 +6,7 @@ namespace lamp {
 
 namespace {
 
-/** Components, by their gauge, with an edge of gravity. */
+/** Which components, by their gauge, have a gravity edge. */
 std::vector<bool> levelGauges(const PoseGraph& graph, const std::vector<double>& weights,
                               const std::vector<std::optional<size_t>>& gauge) {
   std::vector<bool> level(graph.nodes().size(), false);

@@ -12,14 +12,14 @@ struct Unknowns {
   std::vector<int> row;
   int size = 0;                ///< number of rows
   int first_landmark_row = 0;  ///< the rows of landmarks are the last ones
-  /** Key nodes (places) that hold position and yaw of their component, whose roll and pitch gravity
-   * tells. */
+  /** Key nodes (places) at which a component's position and yaw are held, but not roll and pitch,
+   * which gravity tells. */
   std::vector<size_t> level_anchors;
 };
 
-/** Held are gaugeAnchors(), fixed key nodes, landmarks of known position, and those that no edge
+/** Held are gaugeAnchors(), fixed key nodes, and landmarks whose position is known or that no edge
  * reaches.
- * \param weights one for each edge; those of weight zero are no part of the problem. */
+ * \param weights one for each edge; those of weight zero take no part. */
 Unknowns findUnknowns(const PoseGraph& graph, const std::vector<double>& weights);
 
 }  // namespace lamp

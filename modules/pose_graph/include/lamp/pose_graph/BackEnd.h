@@ -8,16 +8,15 @@
 
 namespace lamp {
 
-/** The back end of the paper's II-D: outlier rejections, one after the other, then the optimiser.
- */
+/** The back end (paper II-D): the outlier rejections in turn, then the optimiser. */
 struct BackEnd {
   std::vector<std::shared_ptr<OutlierRejection>> rejections;
   std::shared_ptr<Optimizer> optimizer;
 
-  /** Every admitted loop gets a new chance, whatever its verdict was before.
-   * \param admitted one flag for each edge. */
+  /** Judges every admitted loop closure afresh, whatever its earlier verdict.
+   * \param admitted one flag per edge. */
   OptimizationResult optimize(const PoseGraph& graph, std::vector<bool> admitted) const;
-  /** All loops may take part. */
+  /** Admits all loop closures. */
   OptimizationResult optimize(const PoseGraph& graph) const {
     return optimize(graph, std::vector<bool>(graph.edges().size(), true));
   }

@@ -19,38 +19,39 @@ struct GncOptions {
   void visit(OptionVisitor& v);
 };
 
-/** The last solution of a Gnc. */
+/** What a Gnc remembers of its last solution. */
 struct GncMemory {
   std::vector<KeyNodeId> nodes;
   std::vector<Edge> edges;
-  std::vector<bool> admitted, inlier;  ///< of each edge
-  std::vector<Pose3> poses;            ///< of each node
-  size_t doubtful_loops = 0;           ///< rejected since all loops were weighed together
+  std::vector<bool> admitted, inlier;  ///< by edge
+  std::vector<Pose3> poses;            ///< by node
+  size_t doubtful_loops = 0;           ///< rejected by updates since all loops were last weighed
 };
 
 /** Graduated non-convexity over the loop closures; odometry and priors are known inliers.
  *
  * Yang, Antonante, Tzoumas, Carlone, "Graduated Non-Convexity for Robust Spatial Perception: From
- * Non-Minimal Solvers to Global Outlier Rejection", RA-L 2020. The first start is initialGuess(),
- * or chordalGuess() if that leads to a lower truncated cost. Rounds go on from the last solution;
- * where that fits worse than the stated covariances let it, the guess is tried, too. A last stage
- * alternates solves with verdicts at the threshold until they agree, the last solve in full. The
- * threshold of a loop is the quantile of the chi-square distribution with as many degrees of
- * freedom as its information matrix has rank.
+ * Non-Minimal Solvers to Global Outlier Rejection", RA-L 2020. It starts at initialGuess(), or at
+ * chordalGuess() if that leads to a lower truncated cost. Each round continues from the last
+ * solution; where that fits worse than the stated covariances allow, the guess is tried as well.
+ * The last stage alternates between solving and judging at the threshold until no verdict changes,
+ * and carries the final solve through to convergence. The threshold of a loop is the quantile of
+ * the chi-square distribution with as many degrees of freedom as its information matrix has rank.
  *
- * A round ends the graduation only if no weight has changed in it and the cost is the robust one
- * for all residuals, or for all but those next to the threshold, or if it is the second in which
- * just those loops have a weight that agree; not because the cost stays, nor because all weights
- * are 0 or 1.
+ * The graduation ends when no weight has changed and the cost is the robust one for all residuals,
+ * when it is the robust one for all residuals but those next to the threshold, or when in two
+ * rounds running exactly those loops that agree have had a weight. It does not end because the cost
+ * stays the same or because all weights are 0 or 1.
  *
  * The last stage also rejects loops without which the truncated cost is lower
- * (PoseProblem::leaveOneOut2()), though their own residuals may be small, and takes those in again
- * with which it is lower, though theirs may be large.
+ * (PoseProblem::leaveOneOut2()), even if their own residuals are small, and takes back loops with
+ * which it is lower, even if theirs are large.
  *
- * A graph that has grown since the last call is updated: only the new loops are graduated, from the
- * last poses, among loops that keep their weights; the last stage then judges all loops, so that
- * old ones come back, or go, where the new ones say so. When such updates have rejected a tenth as
- * many loops as there are inliers, all loops are graduated anew. */
+ * If the graph has only grown since the last call, its last solution is updated: starting from the
+ * last poses, only the new loops are graduated, while the others keep their weights. The last stage
+ * then judges all loops, so that new evidence can reinstate old loops or reject them. Once such
+ * updates have rejected a tenth as many loops as there are inliers, all loops are graduated
+ * afresh. */
 class Gnc : public Optimizer {
   DEFINE_MRPT_OBJECT(Gnc, lamp)
 

@@ -20,18 +20,18 @@ struct IcmOptions {
   void visit(OptionVisitor& v);
 };
 
-/** Incremental consistency maximisation: keeps the largest set of loop closures that agree in
- * pairs, over the odometry between their ends (Ebadi et al., ICRA 2020; Mangelson et al., ICRA
- * 2018, "Pairwise Consistent Measurement Set Maximization").
+/** Incremental consistency maximisation: keeps the largest set of loop closures that are pairwise
+ * consistent, given the odometry between their ends (Ebadi et al., ICRA 2020; Mangelson et al.,
+ * ICRA 2018, "Pairwise Consistent Measurement Set Maximization").
  *
- * Loops are compared with those between the same two chains of odometry: of one robot, or of a pair
- * of robots. Two loops agree if the cycle through both closes: with the test `uncertainty` by its
- * squared Mahalanobis distance, from the covariances of odometry and loops; with `per_node` within
- * LAMP's fixed thresholds for each key node that the cycle passes, for comparison; there each loop
- * must agree with odometry so, too.
+ * Only loops between the same two chains of odometry are compared, be they one robot's or two. Two
+ * loops agree if the cycle through both closes. The test `uncertainty` judges this by the cycle's
+ * squared Mahalanobis distance, from the covariances of odometry and loops. The test `per_node`,
+ * meant for comparison, applies LAMP's fixed thresholds per key node along the cycle; there each
+ * loop must agree with odometry in the same way, too.
  *
- * Remembers what it has compared: later calls add the new loops to it, unless loops before them
- * have changed. */
+ * Comparisons are remembered: later calls compare only the new loops, unless earlier ones have
+ * changed. */
 class Icm : public OutlierRejection {
   DEFINE_MRPT_OBJECT(Icm, lamp)
 
@@ -46,7 +46,7 @@ class Icm : public OutlierRejection {
   class Group;
 
   IcmOptions options_;
-  std::map<std::pair<int, int>, std::shared_ptr<Group>> groups_;  ///< by their chains
+  std::map<std::pair<int, int>, std::shared_ptr<Group>> groups_;  ///< by chains
 };
 
 }  // namespace lamp

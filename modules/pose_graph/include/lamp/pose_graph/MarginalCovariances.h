@@ -9,17 +9,17 @@
 
 namespace lamp {
 
-/** Covariances of poses at the graph's estimate, by the inverse of the normal equations' matrix,
- * of which only the blocks asked for are computed (from columns of the inverse Cholesky factor:
- * Kaess, Dellaert, "Covariance recovery from a square root information matrix for data
- * association", RAS 2009).
+/** Covariances of poses at the graph's estimate, from the inverse of the normal equations' matrix.
+ * Only the blocks asked for are computed (from columns of the inverse Cholesky factor: Kaess,
+ * Dellaert, "Covariance recovery from a square root information matrix for data association", RAS
+ * 2009).
  *
- * Edges count with their weights; rejected ones do not. What no edge knows has a standard deviation
- * of up to 1000 m or rad. Of a planar graph only x, y, yaw are computed, the other axes get a
- * variance of 1e-6.
+ * Edges count with their weights; rejected ones do not. Directions that no edge measures get a
+ * standard deviation of up to 1000 m or rad. In a planar graph only x, y and yaw are computed; the
+ * other axes get a variance of 1e-6.
  *
- * Takes a snapshot: later changes of the graph are not seen. The first query factorises the matrix;
- * it throws std::runtime_error if rounding errors leave no positive definite one. Queries may run
+ * Takes a snapshot: later changes to the graph are not seen. The first query factorises the matrix,
+ * and throws std::runtime_error if rounding errors leave it not positive definite. Queries may run
  * in parallel. */
 class MarginalCovariances : public UncertaintyQuery {
  public:
@@ -30,14 +30,15 @@ class MarginalCovariances : public UncertaintyQuery {
   std::vector<std::optional<Matrix6d>> relativeCovariances(
       KeyNodeId from, const std::vector<KeyNodeId>& to) const override;
 
-  /** Covariance of `world_T_base` in its tangent space; of a component that no prior reaches,
-   * relative to its first key node. \throws std::out_of_range. */
+  /** Covariance of `world_T_base` in its tangent space; in a component that no prior reaches,
+   * relative to the component's first key node. \throws std::out_of_range. */
   Matrix6d covariance(KeyNodeId id) const;
 
-  /** The same of all nodes, in their order, for the price of a few factorisations. */
+  /** The same for all nodes, in their order, at the cost of a few factorisations. */
   std::vector<Matrix6d> covariances() const;
 
-  /** Covariance of `world_p`, relative to the same; zero if nothing moves the landmark.
+  /** Covariance of the landmark's `world_p`, likewise; zero if its position is known or no edge
+   * reaches it.
    * \throws std::out_of_range. */
   Eigen::Matrix3d landmarkCovariance(LandmarkIndex landmark) const;
 

@@ -11,17 +11,18 @@ struct OdometryGateOptions {
   void visit(OptionVisitor& v);
 };
 
-/** Rejects loop closures that odometry contradicts: by their squared Mahalanobis distance to the
- * relative pose that the odometry between their nodes gives, with the covariance of the chain
- * carried along by adjoints (Barfoot, Furgale, T-RO 2014, to first order). Between robots through
- * their priors, where both have one; loops across a gap of odometry pass. What it
- * rejects tells how many false loops there are (Admission::false_loops).
+/** Rejects loop closures that odometry contradicts, judged by their squared Mahalanobis distance to
+ * the relative pose that odometry gives between their key nodes. Adjoints carry the covariance
+ * along the chain (Barfoot, Furgale, T-RO 2014, to first order). Between robots the priors link the
+ * chains, where both have one; loops across a gap in odometry pass. The number of loops rejected
+ * tells how many false ones there are (Admission::false_loops).
  *
- * Odometry may be worse than it says: its covariances are first scaled, up to a limit and never
- * down, so that nearly as many loops fit it as with any scale, false ones not counted. If a tenth
- * of the loops, and not few, ask for much, the optimisation is to take it so, too. Loops that
- * neighbours bear out tell the scale, one for each pair of places, or all where those are few. With
- * a scale above 1 what is rejected waits for the solution (Admission::waiting). */
+ * Odometry may be worse than it claims. So its covariances are first scaled up, within a limit, by
+ * the least factor with which nearly as many loops fit as with any other, not counting those that
+ * false loops would add by chance. If ten loops or more, and a tenth of them, call for a large
+ * factor, the optimisation uses it, too. The factor is found from loops that their neighbours bear
+ * out, one for each pair of places; where those are few, from all loops. With a factor above 1,
+ * rejected loops wait for the solution (Admission::waiting). */
 class OdometryGate : public OutlierRejection {
   DEFINE_MRPT_OBJECT(OdometryGate, lamp)
 

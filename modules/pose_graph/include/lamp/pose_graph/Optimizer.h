@@ -10,7 +10,7 @@
 
 namespace lamp {
 
-/** What the back end thinks of one loop closure, or other edge that may be rejected. */
+/** The back end's verdict on a loop closure or another edge that may be rejected. */
 struct LoopVerdict {
   EdgeIndex edge = 0;
   Verdict verdict = Verdict::kInlier;
@@ -25,13 +25,13 @@ struct OptimizationReport {
   int rounds = 1;           ///< outer (GNC) rounds
   double initial_cost = 0;  ///< half the weighted sum of squared residuals
   double final_cost = 0;
-  std::vector<FrameAgreement> frames;  ///< of robots without a common start
-  double odometry_scale = 1.0;         ///< by which covariances of odometry were taken larger
+  std::vector<FrameAgreement> frames;  ///< between robots without a common start
+  double odometry_scale = 1.0;         ///< applied to odometry's covariances
 };
 
 struct OptimizationResult {
   std::vector<Pose3> world_T_base;                        ///< in the order of PoseGraph::nodes()
-  std::vector<std::optional<Eigen::Vector3d>> landmarks;  ///< those that an admitted edge places
+  std::vector<std::optional<Eigen::Vector3d>> landmarks;  ///< none if no admitted edge places it
   /** One for each edge of the graph that may be rejected, in their order. */
   std::vector<LoopVerdict> loops;
   OptimizationReport report;
@@ -42,13 +42,13 @@ class Optimizer : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(Optimizer)
 
  public:
-  /** \param admitted one flag for each edge: loops without it take no part, and come out as
-   *  outliers. Former verdicts do not count. */
+  /** \param admitted one flag per edge; loops without it take no part and come out as outliers.
+   * Earlier verdicts do not count. */
   virtual OptimizationResult optimize(const PoseGraph& graph,
                                       const std::vector<bool>& admitted) = 0;
-  /** The next call is like the first one. */
+  /** Makes the next call like the first one. */
   virtual void forget() {}
-  /** All loops may take part. */
+  /** Admits all loop closures. */
   OptimizationResult optimize(const PoseGraph& graph) {
     return optimize(graph, std::vector<bool>(graph.edges().size(), true));
   }

@@ -9,38 +9,38 @@
 
 namespace lamp {
 
-/** How far two robots that no start poses relate are from a common map. */
+/** How close two robots that no start poses relate are to a common map. */
 struct FrameAgreement {
   RobotId a, b;
   size_t loops = 0;     ///< between the two
   size_t agreeing = 0;  ///< of those, how many agree, each with key nodes of its own
   size_t needed = 0;
   bool joined = false;
-  /** Where several placements of b's first key node in the frame of a's explain about equally well
-   * what both robots have seen, those, and the robots stay apart; the best first. */
+  /** Placements of b's first key node in the frame of a's, the best first, if several explain about
+   * equally well what both robots have seen. The robots then stay apart. */
   std::vector<Pose3> equally_good = {};
-  /** Where what both have seen contradicts the placement that the loops agree on: by what share of
-   * the surfaces that can be compared. The robots stay apart then. */
+  /** If what both have seen contradicts the placement that the loops agree on, the share of the
+   * comparable surfaces that does. The robots then stay apart. */
   double contradicting = 0;
 };
 
-/** What is known of a graph's edges before the optimisation. */
+/** What is known about a graph's edges before the optimisation. */
 struct Admission {
-  /** \param admitted one flag for each edge, whether it may take part. */
+  /** \param admitted_edges one flag per edge: whether it may take part. */
   explicit Admission(std::vector<bool> admitted_edges = {})
       : admitted(std::move(admitted_edges)),
         waiting(admitted.size(), false),
         likely(admitted.size(), false) {}
 
   std::vector<bool> admitted;
-  /** Loop closures that are not admitted, but are to be when the solution without them bears them
-   * out (borneOut()). */
+  /** Loop closures that are not admitted unless the solution without them bears them out
+   * (borneOut()). */
   std::vector<bool> waiting;
-  std::vector<bool> likely;     ///< those waiting loops that need only agree with that solution
-  double odometry_scale = 1.0;  ///< by which covariances of odometry are larger than stated
-  /** How many false loops there are, as far as odometry tells. */
+  std::vector<bool> likely;     ///< waiting loops that need only agree with that solution
+  double odometry_scale = 1.0;  ///< by which odometry's covariances exceed those stated
+  /** How many false loops there are, as far as odometry can tell. */
   double false_loops = std::numeric_limits<double>::infinity();
-  /** A loop is admitted if a false one would agree so well with at most this probability. */
+  /** A loop is admitted if a false one would agree as well with at most this probability. */
   double max_chance = 1.0;
   std::vector<FrameAgreement> frames;
 };
@@ -50,8 +50,8 @@ class OutlierRejection : public Stage {
   DEFINE_VIRTUAL_MRPT_OBJECT(OutlierRejection)
 
  public:
-  /** \param before what former stages found: loops that are out already stay out.
-   * \return the same with what this stage finds. */
+  /** \param before what earlier stages found; loops that are out already stay out.
+   * \return the same, with what this stage finds. */
   virtual Admission reject(const PoseGraph& graph, Admission before) = 0;
 };
 

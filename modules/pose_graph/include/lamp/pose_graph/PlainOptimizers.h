@@ -13,9 +13,8 @@ struct PlainOptions {
 };
 
 /** Least squares over odometry, priors and all admitted loop closures, which come out as inliers of
- * weight 1. Priors hold the components that they
- * reach; each other component is held at its first key node. A planar graph is solved in x, y, yaw.
- */
+ * weight 1. Priors hold the components that they reach; every other component is held at its first
+ * key node. A planar graph is solved in x, y, yaw. */
 class PlainOptimizer : public Optimizer {
   DEFINE_VIRTUAL_MRPT_OBJECT(PlainOptimizer)
 
@@ -46,8 +45,8 @@ class Lm : public PlainOptimizer {
   std::string solver() const override { return "Lm"; }
 };
 
-/** Gauss-Newton with the same linear algebra: fewer safeguards, for graphs with good estimates. Not
- * usable if the normal equations are singular or the cost has grown. */
+/** Gauss-Newton with the same linear algebra: fewer safeguards, for graphs with good estimates. The
+ * result is not usable if the normal equations are singular or the cost has grown. */
 class Gn : public PlainOptimizer {
   DEFINE_MRPT_OBJECT(Gn, lamp)
 
@@ -58,7 +57,7 @@ class Gn : public PlainOptimizer {
   std::string solver() const override { return "Gn"; }
 };
 
-/** Levenberg-Marquardt of Ceres: slower, the reference that tests compare with. */
+/** Ceres' Levenberg-Marquardt: slower, the reference for tests. */
 class CeresLm : public PlainOptimizer {
   DEFINE_MRPT_OBJECT(CeresLm, lamp)
 

@@ -10,11 +10,11 @@ struct RobotFramesOptions {
   void visit(OptionVisitor& v);
 };
 
-/** Keeps robots apart that nothing but a few loop closures relates: without start poses there is no
- * odometry between them that could contradict a false one. The loops between two robots (chains of
- * odometry) are averaged robustly (frameAverages()); the robots are joined when enough of them
- * agree, each with key nodes of its own. Until then all loops between them stay out. Pieces of one
- * robot, between gaps of its odometry, need no such agreement. */
+/** Keeps robots apart while only a few loop closures relate them: without start poses, no odometry
+ * between them could contradict a false one. The loops between two robots (chains of odometry) are
+ * averaged robustly (frameAverages()); the robots are joined once enough loops agree, each with key
+ * nodes of its own. Until then all loops between them stay out. Pieces of one robot's drive,
+ * between gaps in its odometry, need no such agreement. */
 class RobotFrames : public OutlierRejection {
   DEFINE_MRPT_OBJECT(RobotFrames, lamp)
 
