@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -101,6 +103,31 @@ TEST(LidarOdometry, FollowsTheOtherSourceWhereTheLidarSeesNothing) {
   EXPECT_LT((pose.translation() - (onCircle(0).inverse() * onCircle(5)).translation()).norm(),
             0.02);
   EXPECT_THAT(odometry.warnings(), Contains(HasSubstr("19 of 51 scans could not be registered")));
+}
+
+/** The hall from a place along x, with little in it that tells where along. */
+FilteredScan bareHallSeenFrom(double x, unsigned seed) {
+  FilteredScan scan = hallSeenFrom(planarPose(x, 0, 0), seed);
+  std::vector<Eigen::Vector3f> kept;
+  for (size_t i = 0; i < scan.points.size(); ++i) {
+    const Eigen::Vector3f& p = scan.points[i];
+    const float off = std::min({std::abs(p.z()), std::abs(p.y() + 7), std::abs(p.y() - 27)});
+    if (off < 0.1f || i % 9 < 3) kept.push_back(p);
+  }
+  scan.points = std::move(kept);
+  return scan;
+}
+
+TEST(LidarOdometry, LooksFartherWhereAScanMatchesMuchLessThanScansUsuallyDo) {
+  LidarOdometry odometry;
+  Pose3 pose;
+  for (int i = 0; i <= 10; ++i) {
+    FilteredScan scan = bareHallSeenFrom(i < 10 ? 0 : 1.2, static_cast<unsigned>(i));
+    pose = odometry.track(kStart + 0.5 * i, {}, scan);
+  }
+  EXPECT_NEAR(pose.translation().x(), 1.2, 0.05)
+      << "the floor and the walls along the hall, more than half of the scan, match at 0 as well";
+  EXPECT_THAT(odometry.warnings(), IsEmpty());
 }
 
 /** A smooth tunnel along x, seen from a place in it. */
