@@ -58,7 +58,8 @@ uint64_t lidarSeed(const MissionRobot& robot, size_t lidar) {
 
 void markSeen(const LidarSweep& sweep, SeenTriangles& seen) {
   for (const LidarReturn& found : sweep.returns)
-    if (!found.fromDust() && !seen[found.triangle].load(std::memory_order_relaxed))
+    if (found.triangle != LidarReturn::kNoTriangle &&
+        !seen[found.triangle].load(std::memory_order_relaxed))
       seen[found.triangle].store(true, std::memory_order_relaxed);
 }
 
@@ -82,11 +83,22 @@ Scan thinned(const Scan& scan, size_t max_points) {
   return result;
 }
 
-Scan keyedScan(const MissionRobot& robot, size_t key_node, const KeyedOptions& options,
-               SeenTriangles& seen) {
+void appendMoving(const LidarSweep& sweep, const Lidar& lidar,
+                  const TrajectoryInterpolator& trajectory, double stamp,
+                  std::vector<Eigen::Vector3f>& moving) {
+  const auto moves = [](const LidarReturn& found) { return found.moves; };
+  if (std::none_of(sweep.returns.begin(), sweep.returns.end(), moves)) return;
+  const std::vector<Eigen::Vector3f> points = deskew(sweep, lidar, trajectory, stamp);
+  for (size_t i = 0; i < points.size(); ++i)
+    if (sweep.returns[i].moves) moving.push_back(points[i]);
+}
+
+TrueScan keyedScan(const MissionRobot& robot, size_t key_node, const KeyedOptions& options,
+                   SeenTriangles& seen) {
   const double stamp = robot.stampOf(key_node);
   const TrajectoryInterpolator odometry = robot.odometry.interpolator();
-  Scan scan;
+  TrueScan result;
+  Scan& scan = result.scan;
   for (size_t i = 0; i < robot.lidars.size(); ++i) {
     const Lidar& lidar = robot.lidars[i];
     const std::vector<double> stamps = sweepStamps(robot, lidar, stamp, options);
@@ -95,9 +107,11 @@ Scan keyedScan(const MissionRobot& robot, size_t key_node, const KeyedOptions& o
       const LidarSweep sweep = lidar.sweep(robot.truth, begin, lidarSeed(robot, i));
       markSeen(sweep, seen);
       append(sweep, lidar, odometry, stamp, scan);
+      appendMoving(sweep, lidar, odometry, stamp, result.moving);
     }
   }
-  return thinned(scan, static_cast<size_t>(options.max_points));
+  scan = thinned(scan, static_cast<size_t>(options.max_points));
+  return result;
 }
 
 }  // namespace lamp::simulation

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "Dust.h"
+#include "MoversNear.h"
 #include "Reflectance.h"
 #include "SensorPath.h"
 
@@ -52,9 +53,17 @@ struct Lidar::Ray {
   Eigen::Vector3f sensor_direction;  ///< sensor frame
 };
 
-Lidar::Lidar(LidarOptions options, const RayCaster& caster)
+/** What a ray meets first. */
+struct Lidar::Target {
+  LitSurface surface;
+  uint32_t triangle = LidarReturn::kNoTriangle;  ///< none of a mover
+  bool moves = false;
+};
+
+Lidar::Lidar(LidarOptions options, const RayCaster& caster, Movers movers)
     : options_(checked(std::move(options))),
       caster_(caster),
+      movers_(std::move(movers)),
       pattern_(options_.azimuth_steps, options_.rate_hz, options_.sequences_per_block),
       base_T_mount_(poseFromDegrees(options_.pose)) {}
 
@@ -74,16 +83,20 @@ LidarSweep Lidar::sweep(const TrajectoryInterpolator& truth, double begin_stamp,
   const SensorPath world_T_sensor(
       [&](double stamp) { return Pose3(truth.at(stamp) * baseTSensor(stamp)); }, begin_stamp,
       sweep.duration_s);
+  static const std::vector<Mover> kNone;
+  MoversNear movers(movers_ ? *movers_ : kNone, truth.at(begin_stamp).translation(),
+                    options_.max_range_m, begin_stamp, sweep.duration_s);
   sweep.returns.reserve(static_cast<size_t>(pattern_.sequences()) * FiringPattern::kLasers);
   for (int sequence = 0; sequence < pattern_.sequences(); ++sequence) {
     // One pose for the 16 lasers, which fire within 35 us.
-    const auto pose = world_T_sensor.at(pattern_.delay(sequence, FiringPattern::kLasers / 2));
+    const double middle = pattern_.delay(sequence, FiringPattern::kLasers / 2);
+    const auto pose = world_T_sensor.at(middle);
+    movers.moveTo(middle);
     for (int laser = 0; laser < FiringPattern::kLasers; ++laser) {
       const Eigen::Vector3f direction = pattern_.direction(sequence, laser);
+      const Ray ray{pose.translation(), pose.linear() * direction, direction};
       LidarReturn result;
-      if (!measure({pose.translation(), pose.linear() * direction, direction}, dust_per_m, random,
-                   result))
-        continue;
+      if (!measure(ray, targetOf(ray, movers), dust_per_m, random, result)) continue;
       result.stamp = begin_stamp + pattern_.delay(sequence, laser);
       result.sequence = static_cast<uint16_t>(sequence);
       result.laser = static_cast<uint8_t>(laser);
@@ -93,40 +106,53 @@ LidarSweep Lidar::sweep(const TrajectoryInterpolator& truth, double begin_stamp,
   return sweep;
 }
 
+std::optional<Lidar::Target> Lidar::targetOf(const Ray& ray, const MoversNear& movers) const {
+  const auto max_range = static_cast<float>(options_.max_range_m);
+  const auto hit = caster_.cast(ray.origin, ray.direction, max_range);
+  const auto mover = movers.cast(ray.origin, ray.direction, hit ? hit->range_m : max_range);
+  if (!hit && !mover) return std::nullopt;
+  Target target;
+  LitSurface& surface = target.surface;
+  surface.range_m = mover ? mover->range_m : hit->range_m;
+  surface.material = mover ? mover->material : caster_.mesh().materials[hit->triangle];
+  surface.albedo = albedoOf(surface.material, ray.origin + surface.range_m * ray.direction);
+  surface.cos_incidence = mover ? mover->cos_incidence
+                                : std::abs(caster_.mesh().normal(hit->triangle).dot(ray.direction));
+  target.moves = mover.has_value();
+  if (!mover) target.triangle = hit->triangle;
+  return target;
+}
+
 /** \return false if no light comes back. */
-bool Lidar::measure(const Ray& ray, double dust_per_m, Random& random, LidarReturn& result) const {
-  const auto hit =
-      caster_.cast(ray.origin, ray.direction, static_cast<float>(options_.max_range_m));
-  const double surface_m = hit ? hit->range_m : options_.max_range_m;
+bool Lidar::measure(const Ray& ray, const std::optional<Target>& target, double dust_per_m,
+                    Random& random, LidarReturn& result) const {
+  const double surface_m = target ? target->surface.range_m : options_.max_range_m;
   double dust_m = surface_m;
   if (dust_per_m > 0) dust_m = std::exponential_distribution<double>(dust_per_m)(random);
   if (dust_m < surface_m && dust_m >= options_.min_range_m) {
     result.range_m = static_cast<float>(dust_m);
     result.intensity = static_cast<float>(uniform(random, 0.005, 0.04));
-  } else if (!hit || !measureSurface(ray, *hit, random, result)) {
+  } else if (!target || !measureSurface(*target, random, result)) {
     return false;
   }
   result.point = result.range_m * ray.sensor_direction;
   return true;
 }
 
-bool Lidar::measureSurface(const Ray& ray, const RayHit& hit, Random& random,
-                           LidarReturn& result) const {
-  LitSurface surface;
-  surface.material = caster_.mesh().materials[hit.triangle];
-  surface.albedo = albedoOf(surface.material, ray.origin + hit.range_m * ray.direction);
-  surface.cos_incidence = std::abs(caster_.mesh().normal(hit.triangle).dot(ray.direction));
-  surface.range_m = hit.range_m;
+bool Lidar::measureSurface(const Target& target, Random& random, LidarReturn& result) const {
+  const LitSurface& surface = target.surface;
   const double returns =
       returnProbability(surface, static_cast<float>(std::cos(options_.grazing_deg * kRadians)),
                         static_cast<float>(options_.max_range_m));
   if (!chance(random, returns * (1.0 - options_.dropout))) return false;
-  const double range = hit.range_m + lamp::simulation::normal(random, options_.range_sigma_m);
-  const double intensity = intensityOf(surface) + lamp::simulation::normal(random, options_.intensity_sigma);
+  const double range = surface.range_m + lamp::simulation::normal(random, options_.range_sigma_m);
+  const double intensity =
+      intensityOf(surface) + lamp::simulation::normal(random, options_.intensity_sigma);
   if (range < options_.min_range_m || range > options_.max_range_m) return false;
   result.range_m = static_cast<float>(range);
   result.intensity = static_cast<float>(std::clamp(intensity, 1.0 / 255.0, 1.0));
-  result.triangle = hit.triangle;
+  result.triangle = target.triangle;
+  result.moves = target.moves;
   return true;
 }
 

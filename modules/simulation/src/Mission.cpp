@@ -11,23 +11,12 @@ namespace {
 constexpr double kBeginStamp = 1600000000.0;
 
 MissionRobot makeRobot(const SimConfig& config, const SimulatedRobotOptions& options,
-                       const std::vector<Leg>& route, const RayCaster& caster, double start,
-                       uint64_t seed) {
-  MissionRobot robot{
-      options.name,
-      seed,
-      TrajectoryInterpolator(drive(route, caster, options.drive, start, mixSeeds({seed, 1}))),
-      {},
-      0,
-      {},
-      {},
-      options.lidars,
-      {},
-      {},
-      {},
-      {}};
+                       const RayCaster& caster, TrajectoryInterpolator truth,
+                       const Lidar::Movers& movers, uint64_t seed) {
+  MissionRobot robot{options.name, seed, std::move(truth), {}, 0, {}, {}, options.lidars, {}, {},
+                     {},           {}};
   for (const std::string& name : options.lidars)
-    robot.lidars.emplace_back(config.lidars.at(name), caster);
+    robot.lidars.emplace_back(config.lidars.at(name), caster, movers);
   OdometryOptions odometry = options.odometry;
   odometry.rate_hz = config.lidars.at(options.lidars.front()).rate_hz;
   robot.odometry = simulateOdometry(robot.truth, odometry, mixSeeds({seed, 2}));
@@ -77,14 +66,24 @@ Mission makeMission(const SimConfig& config, const World& world, const RayCaster
   for (const SimulatedRobotOptions& robot : config.robots) lengths.push_back(robot.length_m);
   const auto routes = planRoutes(world.layout, lengths, mixSeeds({seed, 1}));
 
-  Mission mission;
+  const auto robotSeed = [&](size_t i) { return mixSeeds({seed, 2, i}); };
+  std::vector<TrajectoryInterpolator> ways;
   double recovered = kBeginStamp;
   for (size_t i = 0; i < routes.size(); ++i) {
     const double start = kBeginStamp + config.world.start_interval_s * static_cast<double>(i);
-    mission.robots.push_back(
-        makeRobot(config, config.robots[i], routes[i], caster, start, mixSeeds({seed, 2, i})));
+    ways.emplace_back(
+        drive(routes[i], caster, config.robots[i].drive, start, mixSeeds({robotSeed(i), 1})));
+    recovered = std::max(recovered, ways.back().end());
+  }
+
+  Mission mission;
+  if (config.movers.people + config.movers.vehicles > 0)
+    mission.movers = std::make_shared<const std::vector<Mover>>(makeMovers(
+        config.movers, world.layout, caster, {kBeginStamp, recovered}, mixSeeds({seed, 3})));
+  for (size_t i = 0; i < routes.size(); ++i) {
+    mission.robots.push_back(makeRobot(config, config.robots[i], caster, std::move(ways[i]),
+                                       mission.movers, robotSeed(i)));
     const MissionRobot& robot = mission.robots.back();
-    recovered = std::max(recovered, robot.truth.end());
     for (const Beacon& beacon : dropBeacons(robot.truth, robot.name, config.radio.beacon_spacing_m))
       mission.beacons.push_back(beacon);
   }

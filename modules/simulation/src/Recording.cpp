@@ -64,13 +64,14 @@ const ImuReading* imuAt(const MissionRobot& robot, double stamp) {
 }
 
 /** The observations of all lidars for one scan; each keeps its own stamp. */
-std::vector<std::shared_ptr<mrpt::obs::CObservationVelodyneScan>> rawScan(const MissionRobot& robot,
-                                                                          double stamp,
-                                                                          SeenTriangles& seen) {
+std::vector<std::shared_ptr<mrpt::obs::CObservationVelodyneScan>> rawScan(
+    const MissionRobot& robot, double stamp, SeenTriangles& seen,
+    std::vector<Eigen::Vector3f>& moving) {
   std::vector<std::shared_ptr<mrpt::obs::CObservationVelodyneScan>> all;
   for (size_t i = 0; i < robot.lidars.size(); ++i) {
     const LidarSweep sweep = robot.lidars[i].sweep(robot.truth, stamp, lidarSeed(robot, i));
     markSeen(sweep, seen);
+    appendMoving(sweep, robot.lidars[i], robot.truth, stamp, moving);
     for (auto& observation :
          velodyneObservations(sweep, robot.lidars[i], robot.name + "/" + robot.lidar_names[i]))
       all.push_back(std::move(observation));
@@ -98,7 +99,8 @@ void writeKeyedRecording(const std::string& path, const MissionRobot& robot,
 }
 
 void writeRawRecording(const std::string& path, const MissionRobot& robot, const Mission& mission,
-                       const SimConfig& config, SeenTriangles& seen, const ShareDone& done) {
+                       const SimConfig& config, SeenTriangles& seen, MovingPoints& moving,
+                       const ShareDone& done) {
   constexpr size_t kChunk = 64;
   Timeline timeline;
   for (size_t i = 0; i < robot.odometry.odom_T_base.size(); ++i)
@@ -114,11 +116,15 @@ void writeRawRecording(const std::string& path, const MissionRobot& robot, const
       const size_t end = std::min(begin + kChunk, stamps.size());
       std::vector<std::vector<std::shared_ptr<mrpt::obs::CObservationVelodyneScan>>> chunk(end -
                                                                                            begin);
-      tbb::parallel_for(begin, end,
-                        [&](size_t i) { chunk[i - begin] = rawScan(robot, stamps[i], seen); });
-      for (const auto& scan : chunk)
-        for (const auto& observation : scan)
+      std::vector<std::vector<Eigen::Vector3f>> chunk_moving(chunk.size());
+      tbb::parallel_for(begin, end, [&](size_t i) {
+        chunk[i - begin] = rawScan(robot, stamps[i], seen, chunk_moving[i - begin]);
+      });
+      for (size_t i = 0; i < chunk.size(); ++i) {
+        for (const auto& observation : chunk[i])
           timeline.add(mrpt::Clock::toDouble(observation->timestamp), observation);
+        if (!chunk_moving[i].empty()) moving[begin + i] = std::move(chunk_moving[i]);
+      }
       timeline.flushBefore(
           end < stamps.size() ? stamps[end] : std::numeric_limits<double>::infinity(), sink);
       done(static_cast<double>(end) / static_cast<double>(stamps.size()));

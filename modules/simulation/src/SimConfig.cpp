@@ -54,8 +54,8 @@ bool hasPrefix(const std::string& text, const std::string& prefix) {
 
 /** Sections that nothing reads are faults. \param team_known whether the robots' are known. */
 void checkSections(const Ini& ini, const SimConfig& config, bool team_known, Faults& faults) {
-  std::vector<std::string> known = {"world", "keyed", "imu",      "radio",
-                                    "link",  "drive", "odometry", "artifacts"};
+  std::vector<std::string> known = {"world", "keyed",    "imu",       "radio", "link",
+                                    "drive", "odometry", "artifacts", "movers"};
   for (const SimulatedRobotOptions& robot : config.robots)
     for (const char* const kind : kRobotPrefixes) known.push_back(kind + robot.name);
   for (const Ini::Section& section : ini.sections()) {
@@ -112,6 +112,7 @@ SimConfig::SimConfig(const WorldKind& world_kind, const Ini& ini, Faults faults)
   readOptions(ini.find("radio"), radio, faults);
   readOptions(ini.find("link"), link, faults);
   readOptions(ini.find("artifacts"), artifacts, faults);
+  readOptions(ini.find("movers"), movers, faults);
   for (const Ini::Section& section : ini.sections())
     if (hasPrefix(section.name, kLidarPrefix))
       readOptions(&section, lidars[section.name.substr(kLidarPrefix.size())], faults);
@@ -139,7 +140,8 @@ std::string SimConfig::text() const {
   std::string text = writeOptions("world", copy.world) + "\n" + writeOptions("keyed", copy.keyed) +
                      "\n" + writeOptions("imu", copy.imu) + "\n" +
                      writeOptions("radio", copy.radio) + "\n" + writeOptions("link", copy.link) +
-                     "\n" + writeOptions("artifacts", copy.artifacts);
+                     "\n" + writeOptions("artifacts", copy.artifacts) + "\n" +
+                     writeOptions("movers", copy.movers);
   for (auto& [name, lidar] : copy.lidars) text += "\n" + writeOptions(kLidarPrefix + name, lidar);
   for (SimulatedRobotOptions& robot : copy.robots) {
     text += "\n" + writeOptions("robot." + robot.name, robot);

@@ -49,17 +49,22 @@ class Simulation {
     for (const MissionRobot& robot : mission_.robots) total += robot.key_nodes.size();
     for (const MissionRobot& robot : mission_.robots) {
       scans_.emplace_back(robot.key_nodes.size());
+      std::vector<std::vector<Eigen::Vector3f>> moving(robot.key_nodes.size());
       for (size_t begin = 0; begin < robot.key_nodes.size(); begin += kBatch) {
         const size_t end = std::min(begin + kBatch, robot.key_nodes.size());
         tbb::parallel_for(begin, end, [&](size_t i) {
-          scans_.back()[i] =
-              std::make_shared<const Scan>(keyedScan(robot, i, config_.keyed, seen_));
+          TrueScan scan = keyedScan(robot, i, config_.keyed, seen_);
+          scans_.back()[i] = std::make_shared<const Scan>(std::move(scan.scan));
+          moving[i] = std::move(scan.moving);
         });
         done += end - begin;
         progress_.show(
             0.1 + (job_.raw ? 0.1 : 0.6) * static_cast<double>(done) / static_cast<double>(total),
             robot.name + " scans at its key nodes");
       }
+      moving_.emplace_back();
+      for (size_t i = 0; i < moving.size(); ++i)
+        if (!moving[i].empty()) moving_.back()[robot.key_nodes[i]] = std::move(moving[i]);
     }
   }
 
@@ -73,10 +78,12 @@ class Simulation {
         progress_.show(job_.raw ? 0.2 + 0.6 * all : 0.7 + 0.1 * all, robot.name + ".rawlog");
       };
       show(0);
-      if (job_.raw)
-        writeRawRecording(stem + ".rawlog", robot, mission_, config_, seen_, show);
-      else
+      if (job_.raw) {
+        moving_[i].clear();
+        writeRawRecording(stem + ".rawlog", robot, mission_, config_, seen_, moving_[i], show);
+      } else {
         writeKeyedRecording(stem + ".rawlog", robot, scans_[i], mission_, config_);
+      }
       writeTextFile(stem + ".arrivals.csv", arrivalsCsv(robot));
     }
     writeTextFile(job_.out + "/lamp.ini", slamIni(world_, mission_, !job_.raw));
@@ -86,8 +93,12 @@ class Simulation {
   void writeTruth() {
     const std::string folder = job_.out + "/truth";
     std::filesystem::create_directories(folder);
-    for (const MissionRobot& robot : mission_.robots)
+    for (size_t i = 0; i < mission_.robots.size(); ++i) {
+      const MissionRobot& robot = mission_.robots[i];
       writeTextFile(folder + "/" + robot.name + ".tum", truthTum(robot));
+      if (mission_.movers)
+        writeTextFile(folder + "/" + robot.name + ".movers.ply", moversPly(moving_[i]));
+    }
     writeTextFile(folder + "/world.json",
                   worldJson(world_, mission_, config_.kind->name, job_.seed));
     progress_.show(0.8, "pairs of scans");
@@ -123,6 +134,7 @@ class Simulation {
   SeenTriangles seen_;
   const Mission mission_;
   std::vector<std::vector<KeyedScanPtr>> scans_;
+  std::vector<MovingPoints> moving_;  ///< of each robot
   std::vector<LoopPair> pairs_;
   size_t samples_ = 0;
 };

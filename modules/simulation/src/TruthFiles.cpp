@@ -119,6 +119,20 @@ std::string truthTum(const MissionRobot& robot) {
   return toTum(poses);
 }
 
+std::string moversPly(const MovingPoints& moving) {
+  std::string body;
+  size_t count = 0;
+  for (const auto& [scan, points] : moving)
+    for (const Eigen::Vector3f& point : points) {
+      appendBytes(static_cast<float>(scan), body);
+      appendBytes(point, body);
+      ++count;
+    }
+  const CloudLayout layout{
+      {"mrpt-lamp: returns from people and vehicles"}, {{"scan"}, {"x"}, {"y"}, {"z"}}, count};
+  return plyHeader(layout) + body;
+}
+
 std::string arrivalsCsv(const MissionRobot& robot) {
   CsvTable table{{"stamp", "arrival"}, {}};
   for (size_t i = 0; i < robot.key_nodes.size(); ++i)

@@ -127,7 +127,7 @@ TEST(KeyedScan, NamesItsSensorsAndWhereTheyWere) {
 TEST(KeyedScan, IsTheSameEachTime) {
   const SmallMission& small = SmallMission::shared();
   SeenTriangles seen(small.world.mesh.triangles.size());
-  const Scan again = keyedScan(small.mission.robots[1], 7, small.config.keyed, seen);
+  const Scan again = keyedScan(small.mission.robots[1], 7, small.config.keyed, seen).scan;
   EXPECT_EQ(again.points, small.scans[1][7]->points);
   EXPECT_EQ(again.intensity, small.scans[1][7]->intensity);
 }

@@ -43,7 +43,8 @@ azimuth_steps = 300
     for (const MissionRobot& robot : mission.robots) {
       scans.emplace_back(robot.key_nodes.size());
       tbb::parallel_for(size_t{0}, robot.key_nodes.size(), [&](size_t i) {
-        scans.back()[i] = std::make_shared<const Scan>(keyedScan(robot, i, config.keyed, seen));
+        scans.back()[i] =
+            std::make_shared<const Scan>(keyedScan(robot, i, config.keyed, seen).scan);
       });
     }
   }

@@ -2,16 +2,21 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lamp/core/Options.h"
 #include "lamp/core/Trajectory.h"
 #include "lamp/simulation/FiringPattern.h"
+#include "lamp/simulation/Movers.h"
 #include "lamp/simulation/Random.h"
 #include "lamp/simulation/RayCaster.h"
 
 namespace lamp::simulation {
+
+class MoversNear;
 
 struct LidarOptions {
   std::string model = "spinning";
@@ -36,7 +41,7 @@ struct LidarOptions {
 };
 
 struct LidarReturn {
-  /** `triangle` of what comes from dust. */
+  /** `triangle` of what comes from dust, or from what moves. */
   static constexpr uint32_t kNoTriangle = std::numeric_limits<uint32_t>::max();
 
   double stamp = 0;  ///< seconds, UTC, of the firing
@@ -46,8 +51,9 @@ struct LidarReturn {
   float intensity = 0;    ///< 0 to 1; diffuse surfaces stay below 0.4, reflectors are above 0.6
   Eigen::Vector3f point;  ///< sensor frame at the stamp, metres
   uint32_t triangle = kNoTriangle;  ///< of the mesh
+  bool moves = false;               ///< from a mover
 
-  bool fromDust() const { return triangle == kNoTriangle; }
+  bool fromDust() const { return triangle == kNoTriangle && !moves; }
 };
 
 /** One revolution, in the order of firing. */
@@ -65,8 +71,11 @@ struct LidarSweep {
  */
 class Lidar {
  public:
-  /** \param caster must outlive the lidar. \throws std::runtime_error for options out of range. */
-  Lidar(LidarOptions options, const RayCaster& caster);
+  using Movers = std::shared_ptr<const std::vector<Mover>>;
+
+  /** \param caster must outlive the lidar. \param movers what else is there; null for nothing.
+   *  \throws std::runtime_error for options out of range. */
+  Lidar(LidarOptions options, const RayCaster& caster, Movers movers = nullptr);
 
   const LidarOptions& options() const { return options_; }
   const FiringPattern& pattern() const { return pattern_; }
@@ -78,11 +87,15 @@ class Lidar {
 
  private:
   struct Ray;
-  bool measure(const Ray& ray, double dust_per_m, Random& random, LidarReturn& result) const;
-  bool measureSurface(const Ray& ray, const RayHit& hit, Random& random, LidarReturn& result) const;
+  struct Target;
+  std::optional<Target> targetOf(const Ray& ray, const MoversNear& movers) const;
+  bool measure(const Ray& ray, const std::optional<Target>& target, double dust_per_m,
+               Random& random, LidarReturn& result) const;
+  bool measureSurface(const Target& target, Random& random, LidarReturn& result) const;
 
   LidarOptions options_;
   const RayCaster& caster_;
+  Movers movers_;
   FiringPattern pattern_;
   Pose3 base_T_mount_;
 };

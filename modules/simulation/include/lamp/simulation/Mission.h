@@ -31,6 +31,7 @@ struct MissionRobot {
 struct Mission {
   std::vector<MissionRobot> robots;
   std::vector<Beacon> beacons;
+  Lidar::Movers movers;  ///< null if there are none
 };
 
 /** Drives the team through the world, from one gate. \param world, caster must outlive the mission.

@@ -20,8 +20,10 @@ void writeKeyedRecording(const std::string& path, const MissionRobot& robot,
 
 /** Writes all that the robot's sensors gave, at full rate: `CObservationVelodyneScan` as packets,
  * odometry, IMU, RSSI, artifacts. Sweeps are computed on the caller's TBB arena. Marks what was
- * seen. */
+ * seen. \param[out] moving for each scan the returns from movers, in the base frame at its stamp.
+ */
 void writeRawRecording(const std::string& path, const MissionRobot& robot, const Mission& mission,
-                       const SimConfig& config, SeenTriangles& seen, const ShareDone& done);
+                       const SimConfig& config, SeenTriangles& seen, MovingPoints& moving,
+                       const ShareDone& done);
 
 }  // namespace lamp::simulation

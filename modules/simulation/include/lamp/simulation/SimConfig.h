@@ -10,6 +10,7 @@
 #include "lamp/simulation/Imu.h"
 #include "lamp/simulation/Lidar.h"
 #include "lamp/simulation/Link.h"
+#include "lamp/simulation/Movers.h"
 #include "lamp/simulation/OdometryModel.h"
 #include "lamp/simulation/Radio.h"
 #include "lamp/simulation/World.h"
@@ -61,6 +62,7 @@ struct SimConfig {
   RadioOptions radio;
   LinkOptions link;
   ArtifactOptions artifacts;
+  MoverOptions movers;
   std::vector<SimulatedRobotOptions> robots;
   std::map<std::string, LidarOptions> lidars;  ///< `[lidar.NAME]`
 

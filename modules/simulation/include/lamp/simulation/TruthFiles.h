@@ -23,6 +23,10 @@ std::string loopPairsCsv(const std::vector<LoopPair>& pairs, const Mission& miss
 /** `<robot>.tum`: world_T_base at each scan. */
 std::string truthTum(const MissionRobot& robot);
 
+/** `<robot>.movers.ply`: `scan x y z` of the returns from movers: the row of `<robot>.tum`, and the
+ * point in the base's frame there, metres. Binary. */
+std::string moversPly(const MovingPoints& moving);
+
 /** `<robot>.arrivals.csv`: stamp of each key node, and when it reaches the base. */
 std::string arrivalsCsv(const MissionRobot& robot);
 
