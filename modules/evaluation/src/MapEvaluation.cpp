@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "Colormap.h"
 #include "lamp/core/CloudHeader.h"
+#include "lamp/core/Colormap.h"
 #include "lamp/core/Files.h"
 #include "lamp/core/PlyVertices.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "Colormap.h"
 #include "TrajectoryPlots.h"
+#include "lamp/core/Colormap.h"
 #include "lamp/core/Csv.h"
 
 namespace lamp::evaluation {

@@ -90,19 +90,25 @@ class Inquiry {
   const Pose3 map_T_surface_;
 };
 
-/** Each voxel of the octree that holds a seen sample counts once. */
-OctoMapCounts surfaceVoxels(const octomap::OcTree& tree, const Inquiry& inquiry,
-                            const SurfaceSamples& surface) {
+/** Each voxel of the octree that holds one of the points counts once. */
+OctoMapCounts voxelsWith(const std::vector<Eigen::Vector3f>& points, const octomap::OcTree& tree,
+                         const Inquiry& inquiry) {
   OctoMapCounts counts;
   std::unordered_set<octomap::OcTreeKey, octomap::OcTreeKey::KeyHash> voxels;
-  for (size_t i = 0; i < surface.points.size(); ++i) {
-    if (!surface.seen[i]) continue;
-    const octomap::point3d p = inquiry.inMap(surface.points[i].cast<double>());
+  for (const Eigen::Vector3f& point : points) {
+    const octomap::point3d p = inquiry.inMap(point.cast<double>());
     octomap::OcTreeKey key;
     if (!tree.coordToKeyChecked(p, key) || !voxels.insert(key).second) continue;
     inquiry.count(p, counts);
   }
   return counts;
+}
+
+std::vector<Eigen::Vector3f> seenOf(const SurfaceSamples& surface) {
+  std::vector<Eigen::Vector3f> seen;
+  for (size_t i = 0; i < surface.points.size(); ++i)
+    if (surface.seen[i]) seen.push_back(surface.points[i]);
+  return seen;
 }
 
 /** Samples that face up, within 0.5 m beside a true position and at most 2 m below it. */
@@ -130,13 +136,15 @@ OctoMapCounts drivenFloor(const Inquiry& inquiry, const SurfaceSamples& surface,
 
 OctoMapEvaluation evaluateOctoMap(const std::string& path, const Pose3& surface_T_world,
                                   const SurfaceSamples& surface,
-                                  const std::vector<Eigen::Vector3f>& positions) {
+                                  const std::vector<Eigen::Vector3f>& positions,
+                                  const std::vector<Eigen::Vector3f>& moving) {
   const auto tree = readTree(path);
   const Inquiry inquiry(*tree, surface_T_world * Eigen::Translation3d(offsetOf(path)));
   OctoMapEvaluation evaluation;
   evaluation.resolution_m = tree->getResolution();
   evaluation.free_resolution_m = std::max(kWatertightVoxel, evaluation.resolution_m);
-  evaluation.surface = surfaceVoxels(*tree, inquiry, surface);
+  evaluation.surface = voxelsWith(seenOf(surface), *tree, inquiry);
+  evaluation.moving = voxelsWith(moving, *tree, inquiry);
   evaluation.driven_floor = drivenFloor(inquiry, surface, positions);
   try {
     forEachFreeVoxel(surface, positions, evaluation.free_resolution_m,

@@ -111,14 +111,27 @@ Json loopScoreJson(const LoopScore& score) {
           {"covariance", covarianceJson(score.covariance)}};
 }
 
+/** \param part of the points, which the measure names. */
+Json pointsJson(const char* measure, size_t part, const PointsKept& points) {
+  return {{measure, points.points > 0 ? Json(share(part, points.points)) : Json(nullptr)},
+          {"points", points.points},
+          {"kept", points.kept}};
+}
+
 Json mapsJson(const std::vector<MapEvaluation>& maps) {
   Json json;
-  for (const MapEvaluation& map : maps)
+  for (const MapEvaluation& map : maps) {
     json[map.name] = {{"points", map.points.size()},
                       {"accuracy_mean_m", map.accuracy_m.mean},
                       {"accuracy_p95_m", map.accuracy_m.p95},
                       {"accuracy_max_m", map.accuracy_m.max},
                       {"completeness_share", map.completeness}};
+    if (!map.removal) continue;
+    const auto& [moving, fixed, stray] = *map.removal;
+    json[map.name]["moving"] = pointsJson("kept_share", moving.kept, moving);
+    json[map.name]["surface"] = pointsJson("removed_share", fixed.points - fixed.kept, fixed);
+    json[map.name]["stray"] = pointsJson("kept_share", stray.kept, stray);
+  }
   return json;
 }
 
@@ -137,7 +150,8 @@ Json octomapJson(const OctoMapEvaluation& e) {
           {"surface", countsJson("marked_free_share", e.surface.free, e.surface)},
           {"free_space", countsJson("marked_occupied_share", e.free_space.occupied, e.free_space)},
           {"driven_floor", countsJson("known_share", e.driven_floor.occupied + e.driven_floor.free,
-                                      e.driven_floor)}};
+                                      e.driven_floor)},
+          {"moving", countsJson("marked_occupied_share", e.moving.occupied, e.moving)}};
 }
 
 Json runJson(const RunEvaluation& run) {

@@ -48,11 +48,15 @@ const std::vector<ReportRow> kMapRows = {
     {"accuracy mean [m]", "{accuracy_mean_m:3}"},
     {"accuracy 95 % [m]", "{accuracy_p95_m:3}"},
     {"completeness [%]", "{completeness_share%1}"},
+    {"points of movers that stay [%]", "{moving/kept_share%2}"},
+    {"points of the surface that go [%]", "{surface/removed_share%3}"},
+    {"stray points that stay [%]", "{stray/kept_share%1}"},
 };
 const std::vector<ReportRow> kOctoMapRows = {
     {"surface marked free [%]", "{surface/marked_free_share%2}"},
     {"free space marked occupied [%]", "{free_space/marked_occupied_share%3}"},
     {"driven floor known [%]", "{driven_floor/known_share%1}"},
+    {"way of movers marked occupied [%]", "{moving/marked_occupied_share%2}"},
 };
 const std::vector<ReportRow> kRelationRows = {
     {"relations", "{relations:0}"},

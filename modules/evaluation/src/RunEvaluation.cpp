@@ -55,18 +55,18 @@ std::optional<Pose3> worldAlignment(size_t component, RunEvaluation& evaluation)
 }
 
 void addOctoMap(const std::string& stem, const Pose3& surface_T_world, const TrueWorld& world,
-                RunEvaluation& evaluation) {
+                const std::vector<Eigen::Vector3f>& moving, RunEvaluation& evaluation) {
   for (const char* extension : {".bt", ".ot"}) {
     if (!fs::exists(stem + extension)) continue;
     evaluation.octomap = evaluateOctoMap(stem + extension, surface_T_world, world.surface.samples(),
-                                         world.positions);
+                                         world.positions, moving);
     if (!evaluation.octomap->no_free_space.empty())
       evaluation.notes.push_back("free space is not scored: " + evaluation.octomap->no_free_space);
     return;
   }
 }
 
-void addMaps(const TrueWorld& world, RunEvaluation& evaluation) {
+void addMaps(const TruthFolder& truth, const TrueWorld& world, RunEvaluation& evaluation) {
   for (size_t i = 0; i < evaluation.run.components.size(); ++i) {
     const std::string& stem = evaluation.run.components[i].map;
     const bool has_cloud = !stem.empty() && fs::exists(stem + ".ply");
@@ -79,7 +79,13 @@ void addMaps(const TrueWorld& world, RunEvaluation& evaluation) {
       evaluation.maps.push_back(evaluateMap(stem + ".ply", surface_T_world, world.surface));
     else
       evaluation.notes.push_back("no " + stem + ".ply: the point cloud is not scored");
-    if (i == 0) addOctoMap(stem, surface_T_world, world, evaluation);
+    if (i > 0) continue;
+    const ScannedPoints scanned =
+        scannedPoints(evaluation.run, i, truth, surface_T_world, world.surface);
+    append(scanned.notes, evaluation.notes);
+    if (has_cloud)
+      evaluation.maps.back().removal = evaluateRemoval(scanned, evaluation.maps.back().points);
+    addOctoMap(stem, surface_T_world, world, scanned.moving, evaluation);
   }
 }
 
@@ -113,7 +119,7 @@ RunEvaluation evaluateRun(const std::string& root, const EvaluationInput& input,
     addLoops(*input.truth, evaluation);
     progress(0.5, "maps");
     if (input.world)
-      addMaps(*input.world, evaluation);
+      addMaps(*input.truth, *input.world, evaluation);
     else
       evaluation.notes.push_back("the truth has no map.ply: maps are not scored");
   }

@@ -2,13 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <mrpt/core/Clock.h>
-#include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include "TestRuns.h"
+#include "TestScans.h"
 #include "lamp/core/GraphFiles.h"
 #include "lamp/evaluation/KeyedScans.h"
 
@@ -26,21 +22,6 @@ Points wallSeenFrom(double x) {
     for (int k = 0; k < 10; ++k) points.emplace_back(0.2f * i + 0.1f, 2.1f, 0.2f * k + 0.1f);
   for (auto& p : points) p.x() += static_cast<float>(std::round(x) - x);
   return points;
-}
-
-/** One keyed scan after the other, in a sensor frame 0.5 m above the base. */
-void writeKeyedScans(const std::string& path, const std::map<double, Points>& scans) {
-  mrpt::io::CFileGZOutputStream file(path);
-  auto archive = mrpt::serialization::archiveFrom(file);
-  for (const auto& [stamp, points] : scans) {
-    mrpt::obs::CObservationPointCloud cloud;
-    cloud.timestamp = mrpt::Clock::fromDouble(stamp);
-    cloud.sensorPose = mrpt::poses::CPose3D::FromTranslation(0, 0, 0.5);
-    const auto map = mrpt::maps::CSimplePointsMap::Create();
-    for (const auto& p : points) map->insertPoint(p.x(), p.y(), p.z() - 0.5f);
-    cloud.pointcloud = map;
-    archive << cloud;
-  }
 }
 
 const char* const kHeader =

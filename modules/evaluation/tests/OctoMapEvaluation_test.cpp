@@ -55,8 +55,9 @@ std::string written(octomap::OcTree tree, const std::string& name = "map.bt") {
   return path;
 }
 
-OctoMapEvaluation evaluate(const std::string& path, const Pose3& T = Pose3::Identity()) {
-  return evaluateOctoMap(path, T, room(), kDriven);
+OctoMapEvaluation evaluate(const std::string& path, const Pose3& T = Pose3::Identity(),
+                           const std::vector<Eigen::Vector3f>& moving = {}) {
+  return evaluateOctoMap(path, T, room(), kDriven, moving);
 }
 
 TEST(OctoMapEvaluation, ARightMapHasNothingWrong) {
@@ -96,6 +97,16 @@ TEST(OctoMapEvaluation, CountsVoxelsThatAreWrong) {
   EXPECT_EQ(e.surface.occupied, kSurface - 8);
   EXPECT_EQ(e.free_space.occupied, 3u);
   EXPECT_EQ(e.free_space.free, kTrulyFree - 3);
+}
+
+TEST(OctoMapEvaluation, CountsVoxelsOfWhatMovesOnce) {
+  octomap::OcTree tree = rightTree();
+  tree.setNodeValue(center(5, 6, 5), 2.0f);
+  const auto at = [](float x) { return Eigen::Vector3f(x, 1.3f, 1.1f); };
+  const auto e = evaluate(written(tree), Pose3::Identity(), {at(1.05f), at(1.1f), at(1.3f), at(9)});
+  EXPECT_EQ(e.moving.occupied, 1u);
+  EXPECT_EQ(e.moving.free, 1u);
+  EXPECT_EQ(e.moving.unknown, 1u);
 }
 
 TEST(OctoMapEvaluation, DrivenFloorIsBelowTheWayOnly) {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lamp/core/Geometry.h"
+#include "lamp/evaluation/ScannedPoints.h"
 #include "lamp/evaluation/Statistics.h"
 #include "lamp/evaluation/TrueSurface.h"
 
@@ -17,6 +19,7 @@ struct MapEvaluation {
   std::vector<float> errors_m;          ///< of each point: distance to the true surface
   Statistics accuracy_m;                ///< of the errors
   double completeness = 0;              ///< share of the seen samples with a point within 0.2 m
+  std::optional<MapRemoval> removal;    ///< of the largest component
 };
 
 /** \param cloud path of a PLY file with `x y z`. \param surface_T_world the alignment.

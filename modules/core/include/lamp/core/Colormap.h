@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace lamp::evaluation {
+namespace lamp {
 
 /** Viridis (van der Walt and Smith 2015; CC0), perceptually uniform, at equal steps. */
 constexpr std::array<std::array<uint8_t, 3>, 9> kViridis = {{{68, 1, 84},
@@ -19,4 +19,4 @@ constexpr std::array<std::array<uint8_t, 3>, 9> kViridis = {{{68, 1, 84},
 /** Colour of a value between 0 and 1; clamped. */
 std::array<uint8_t, 3> viridis(double value);
 
-}  // namespace lamp::evaluation
+}  // namespace lamp

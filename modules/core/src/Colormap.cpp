@@ -1,9 +1,9 @@
-#include "Colormap.h"
+#include "lamp/core/Colormap.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace lamp::evaluation {
+namespace lamp {
 
 std::array<uint8_t, 3> viridis(double value) {
   const double place = std::clamp(value, 0.0, 1.0) * (kViridis.size() - 1);
@@ -16,4 +16,4 @@ std::array<uint8_t, 3> viridis(double value) {
   return color;
 }
 
-}  // namespace lamp::evaluation
+}  // namespace lamp
