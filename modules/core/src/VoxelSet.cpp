@@ -1,15 +1,11 @@
 #include "lamp/core/VoxelSet.h"
 
-#include <cmath>
-#include <stdexcept>
-#include <string>
+#include "lamp/core/VoxelKey.h"
 
 namespace lamp {
 
 namespace {
 
-constexpr int kBitsPerAxis = 21;
-constexpr double kHalfSpan = 1 << (kBitsPerAxis - 1);
 /** Keys use 63 bits, so this is none of them. */
 constexpr uint64_t kFree = ~uint64_t{0};
 constexpr size_t kFirstSlots = 1024;
@@ -30,16 +26,7 @@ bool VoxelSet::insert(const Eigen::Vector3d& point) {
 }
 
 uint64_t VoxelSet::keyOf(const Eigen::Vector3d& point) const {
-  uint64_t key = 0;
-  for (const double coordinate : point) {
-    const double cell = std::floor(coordinate / voxel_m_);
-    if (!(std::abs(cell) < kHalfSpan))
-      throw std::runtime_error("a point at " + std::to_string(coordinate) +
-                               " m is too far from the origin for voxels of " +
-                               std::to_string(voxel_m_) + " m: raise voxel_m or set it to 0");
-    key = (key << kBitsPerAxis) | static_cast<uint64_t>(cell + kHalfSpan);
-  }
-  return key;
+  return voxelKey(point, voxel_m_);
 }
 
 bool VoxelSet::insertKey(uint64_t key) {

@@ -13,21 +13,16 @@ uint32_t packedRgb(Color color) {
   return (uint32_t{color.r} << 16) | (uint32_t{color.g} << 8) | color.b;
 }
 
-void appendPcdPoint(const CloudPoint& point, std::string& bytes) {
-  appendBytes(point.position, bytes);
-  appendBytes(packedRgb(point.color), bytes);
+void appendPcdColor(Color color, std::string& bytes) {
+  appendBytes(packedRgb(color), bytes);
 }
 
 }  // namespace
 
 std::vector<std::string> Pcd::exportMap(const ComponentMap& map, const std::string& stem) {
-  const std::string path = stem + ".pcd";
-  const CloudFormat format{pcdHeader,
-                           ".PCD v0.7 - Point Cloud Data file format",
-                           {{"x"}, {"y"}, {"z"}, {"rgb"}},
-                           appendPcdPoint};
-  writeCloud(map, options_.voxel_m, format, path);
-  return {path};
+  const CloudFormat format{"pcd",     pcdHeader,      ".PCD v0.7 - Point Cloud Data file format",
+                           {{"rgb"}}, appendPcdColor, {{"normal_x"}, {"normal_y"}, {"normal_z"}}};
+  return writeCloud(map, options_, format, stem);
 }
 
 }  // namespace lamp

@@ -26,6 +26,19 @@ VoxelSetBlocks eachBlock(const OccupancyCounts& counts, Make&& make) {
   return set;
 }
 
+/** The voxels with a property. */
+template <class Property>
+VoxelBits voxelsWith(const CountsBlock& counts, Property&& property) {
+  VoxelBits bits;
+  for (size_t i = 0; i < kBlockVoxels; ++i)
+    if (property(counts.at(i))) bits.set(i);
+  return bits;
+}
+
+bool isHit(const VoxelCounts& voxel) {
+  return voxel.hits > 0;
+}
+
 /** Something was here and went: enough scans would have hit it since, from several places. */
 bool isGone(const VoxelCounts& voxel) {
   constexpr int kFewest = 3, kPerHit = 2;
@@ -34,10 +47,56 @@ bool isGone(const VoxelCounts& voxel) {
   return uint64_t{voxel.clear_times} * voxel.hits > uint64_t{voxel.hit_times} * voxel.clear_passes;
 }
 
-VoxelBits standing(const CountsBlock& counts) {
-  VoxelBits bits;
-  for (size_t i = 0; i < kBlockVoxels; ++i)
-    if (counts.at(i).hits > 0 && !isGone(counts.at(i))) bits.set(i);
+/** It may have been something that went: at least as many scans would have hit it as did. */
+bool isDoubtful(const VoxelCounts& voxel) {
+  return isHit(voxel) && voxel.clear_passes >= voxel.hits;
+}
+
+/** Those of the 26 neighbours that are in a set. */
+std::vector<VoxelIndex> neighborsOf(const VoxelIndex& voxel, const VoxelSetBlocks& set) {
+  std::vector<VoxelIndex> neighbors;
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        const VoxelIndex neighbor = voxel + VoxelIndex(x, y, z);
+        if (neighbor != voxel && set.test(neighbor)) neighbors.push_back(neighbor);
+      }
+  return neighbors;
+}
+
+std::vector<VoxelIndex> voxelsOf(const VoxelSetBlocks& set) {
+  std::vector<VoxelIndex> voxels;
+  for (const auto& [key, bits] : set.blocks())
+    for (size_t i = 0; i < kBlockVoxels; ++i)
+      if (bits.test(i)) voxels.push_back(firstVoxelOf(key) + fromPlaceInBlock(i));
+  return voxels;
+}
+
+/** What moved leaves a trail, of which some voxels are seen through often and others seldom: the
+ * certain ones, and all doubtful ones that these join (hysteresis, as of Canny's edges, 1986). */
+VoxelSetBlocks movedAway(const OccupancyCounts& counts) {
+  VoxelSetBlocks gone =
+      eachBlock(counts, [](BlockKey, const auto& block) { return voxelsWith(block, isGone); });
+  const VoxelSetBlocks doubtful =
+      eachBlock(counts, [](BlockKey, const auto& block) { return voxelsWith(block, isDoubtful); });
+  std::vector<VoxelIndex> front = voxelsOf(gone);
+  while (!front.empty()) {
+    const VoxelIndex voxel = front.back();
+    front.pop_back();
+    for (const VoxelIndex& neighbor : neighborsOf(voxel, doubtful)) {
+      if (gone.test(neighbor)) continue;
+      gone[blockOf(neighbor)].set(placeInBlock(neighbor));
+      front.push_back(neighbor);
+    }
+  }
+  return gone;
+}
+
+/** What was hit and did not move away. */
+VoxelBits standing(const VoxelSetBlocks& gone, BlockKey key, const CountsBlock& counts) {
+  VoxelBits bits = voxelsWith(counts, isHit);
+  const VoxelBits& away = *gone.find(key);
+  for (size_t word = 0; word < bits.words.size(); ++word) bits.words[word] &= ~away.words[word];
   return bits;
 }
 
@@ -81,18 +140,6 @@ StateBlock stateOf(BlockKey key, const CountsBlock* counts, const VoxelSetBlocks
   return states;
 }
 
-/** Of the 26 neighbours, those that were hit. */
-std::vector<VoxelIndex> neighborsOf(const VoxelIndex& voxel, const VoxelSetBlocks& hit) {
-  std::vector<VoxelIndex> neighbors;
-  for (int z = -1; z <= 1; ++z)
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x) {
-        const VoxelIndex neighbor = voxel + VoxelIndex(x, y, z);
-        if (neighbor != voxel && hit.test(neighbor)) neighbors.push_back(neighbor);
-      }
-  return neighbors;
-}
-
 /** Nothing is around, or one other that is as alone. */
 bool isSpeck(const VoxelIndex& voxel, const VoxelSetBlocks& hit) {
   const std::vector<VoxelIndex> neighbors = neighborsOf(voxel, hit);
@@ -116,8 +163,9 @@ VoxelBits withoutSpecks(const VoxelSetBlocks& hit, BlockKey block, const CountsB
 }  // namespace
 
 VoxelSetBlocks occupiedVoxels(const OccupancyCounts& counts) {
-  const VoxelSetBlocks hit =
-      eachBlock(counts, [](BlockKey, const auto& block) { return standing(block); });
+  const VoxelSetBlocks gone = movedAway(counts);
+  const VoxelSetBlocks hit = eachBlock(
+      counts, [&](BlockKey key, const auto& block) { return standing(gone, key, block); });
   const VoxelSetBlocks things = eachBlock(
       counts, [&](BlockKey key, const auto& block) { return withoutSpecks(hit, key, block); });
   return eachBlock(

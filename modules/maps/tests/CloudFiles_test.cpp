@@ -4,7 +4,8 @@
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 
-#include "TestMaps.h"
+#include "TestRays.h"
+#include "lamp/core/Csv.h"
 #include "lamp/maps/Pcd.h"
 #include "lamp/maps/Ply.h"
 
@@ -48,13 +49,23 @@ std::vector<ReadPoint> read(const std::string& path) {
   return points;
 }
 
+/** Also what moves. */
+CloudOptions everything(double voxel_m) {
+  CloudOptions options;
+  options.voxel_m = voxel_m;
+  options.moving = true;
+  return options;
+}
+
 /** The same tests for both formats. */
 class CloudFiles : public testing::TestWithParam<const char*> {
  protected:
   std::vector<std::string> exportMap(const ComponentMap& map, double voxel_m,
                                      const std::string& stem) {
-    CloudOptions options;
-    options.voxel_m = voxel_m;
+    return exportMap(map, everything(voxel_m), stem);
+  }
+  std::vector<std::string> exportMap(const ComponentMap& map, const CloudOptions& options,
+                                     const std::string& stem) {
     if (std::string(GetParam()) == "ply") return Ply(options).exportMap(map, stem);
     return Pcd(options).exportMap(map, stem);
   }
@@ -63,6 +74,9 @@ class CloudFiles : public testing::TestWithParam<const char*> {
     const auto paths = exportMap(map, voxel_m, stem);
     EXPECT_EQ(paths, std::vector<std::string>{stem + "." + GetParam()});
     return paths.at(0);
+  }
+  std::string write(const ComponentMap& map, const CloudOptions& options) {
+    return exportMap(map, options, freshFolder() + "/map").at(0);
   }
 };
 INSTANTIATE_TEST_SUITE_P(Formats, CloudFiles, testing::Values("ply", "pcd"),
@@ -139,10 +153,143 @@ TEST_P(CloudFiles, ThinsWithOneGridOverAllScans) {
   for (const ReadPoint& point : thinned) EXPECT_EQ(point.r, robotColor(RobotId{0}).r);
 }
 
+TEST_P(CloudFiles, KeepsThePointNearestTheMeanOfItsVoxel) {
+  TestMap test;
+  test.add(0, Pose3::Identity(), makeScan({{0.01f, 0.1f, 0.1f}, {0.12f, 0.1f, 0.1f}}));
+  test.add(1, Pose3::Identity(), makeScan({{0.19f, 0.1f, 0.1f}, {0.21f, 0.1f, 0.1f}}));
+  const auto points = read(write(test.map, 0.2));
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].x, 0.12f);
+  EXPECT_EQ(points[1].x, 0.21f);
+}
+
+/** A wall that is seen from six places; before it at first a box, and a speck of dust. */
+struct Yard {
+  TestMap test;
+  Yard() {
+    RayWorld wall;
+    wall.addBox({6, -6, -3}, {7, 6, 3});
+    RayWorld with_box = wall;
+    with_box.addBox({3, -0.3, -0.5}, {3.6, 0.3, 0.5});
+    with_box.look({0.1, 0.1, 0.1}, test);
+    for (int i = 1; i < 6; ++i) wall.look({0.1, 0.1 + 0.6 * i, 0.1}, test);
+    auto dusty = std::make_shared<Scan>(*test.map.key_nodes[0].scan);
+    dusty->points.push_back({4.5f, 1, 0});
+    dusty->sensor.push_back(0);
+    test.map.key_nodes[0].scan = dusty;
+  }
+};
+
+TEST_P(CloudFiles, WhatMovedAwayAndDustStayOnlyIfAskedFor) {
+  const Yard yard;
+  CloudOptions options;
+  const auto beforeTheWall = [&] {
+    size_t before = 0, wall = 0;
+    for (const ReadPoint& point : read(write(yard.test.map, options)))
+      ++(point.x < 5.5f ? before : wall);
+    EXPECT_GT(wall, 1000u);
+    return before;
+  };
+  EXPECT_EQ(beforeTheWall(), 0u);
+  options.moving = true;
+  EXPECT_GT(beforeTheWall(), 50u);
+}
+
+TEST_P(CloudFiles, BeyondTheRangeOfTheOccupancyPointsStay) {
+  TestMap test;
+  test.add(0, Pose3::Identity(), makeScan({{40, 0, 0}, {40, 1, 0}}));
+  EXPECT_EQ(read(write(test.map, CloudOptions())).size(), 2u);
+}
+
+TEST_P(CloudFiles, ColoursByHeightTimeAndIntensity) {
+  TestMap test;
+  std::vector<Eigen::Vector3f> mast;
+  for (int i = 0; i < 2000; ++i) mast.push_back({0, 0, 0.01f * i});
+  const auto bright = makeScan(mast);
+  for (int i = 0; i < 2000; ++i) bright->intensity.push_back(1 - i / 2000.0f);
+  test.add(0, Pose3::Identity(), bright);
+  test.add(0, Pose3(Eigen::Translation3d(1, 0, 0)), makeScan(mast));
+  CloudOptions options = everything(0);
+  const auto isLow = [](const ReadPoint& p) { return p.r == 68 && p.g == 1 && p.b == 84; };
+  const auto isHigh = [](const ReadPoint& p) { return p.r == 253 && p.g == 231 && p.b == 37; };
+  options.color = "height";
+  auto points = read(write(test.map, options));
+  ASSERT_EQ(points.size(), 4000u);
+  EXPECT_TRUE(isLow(points[0]) && isHigh(points[1999]) && isLow(points[2000]));
+  options.color = "time";
+  points = read(write(test.map, options));
+  EXPECT_TRUE(isLow(points[1999]) && isHigh(points[2000]));
+  options.color = "intensity";
+  points = read(write(test.map, options));
+  EXPECT_TRUE(isHigh(points[0]) && isLow(points[1999]));
+  EXPECT_EQ(points[2000].r, 128) << "none";
+}
+
+TEST_P(CloudFiles, NormalsFaceTheSensor) {
+  TestMap test;
+  std::vector<Eigen::Vector3f> wall;
+  // Across the edge of a piece, at y = 0.
+  for (int y = -20; y < 20; ++y)
+    for (int z = 0; z < 40; ++z) wall.push_back({3, 0.1f * y + 0.05f, 0.1f * z});
+  test.add(0, Pose3::Identity(), makeScan(wall));
+  CloudOptions options = everything(0.05);
+  options.normals = true;
+  const std::string path = write(test.map, options);
+  pcl::PCLPointCloud2 cloud;
+  const bool is_ply = std::string(GetParam()) == "ply";
+  ASSERT_EQ(is_ply ? pcl::PLYReader().read(path, cloud) : pcl::PCDReader().read(path, cloud), 0);
+  ASSERT_EQ(cloud.width * cloud.height, wall.size());
+  // PCL renames those of PLY to its own.
+  for (size_t i = 0; i < wall.size(); ++i) EXPECT_NEAR(floatField(cloud, i, "normal_x"), -1, 1e-4);
+}
+
+TEST_P(CloudFiles, TilesAreTheSameCloudInPieces) {
+  TestMap test;
+  std::vector<Eigen::Vector3f> row;
+  for (int i = -500; i < 500; ++i) row.push_back({0.03f * i, 0.02f * i, 0.001f * i});
+  test.add(0, Pose3::Identity(), makeScan(row));
+  CloudOptions options = everything(0.05);
+  options.normals = true;
+  const auto byX = [](const ReadPoint& a, const ReadPoint& b) { return a.x < b.x; };
+  auto whole = read(write(test.map, options));
+  std::sort(whole.begin(), whole.end(), byX);
+
+  options.tile_m = 7;
+  const std::string stem = freshFolder() + "/map", folder = stem + "_" + GetParam();
+  const auto paths = exportMap(test.map, options, stem);
+  const CsvTable index = CsvTable::fromFile(folder + "/index.csv");
+  ASSERT_EQ(paths.size(), index.rows.size() + 1);
+  ASSERT_GT(index.rows.size(), 4u);
+  std::vector<ReadPoint> pieces;
+  for (size_t i = 0; i < index.rows.size(); ++i) {
+    const auto number = [&](const char* column) {
+      return std::stof(index.rows[i][index.column(column)]);
+    };
+    EXPECT_EQ(paths[i], folder + "/" + index.rows[i][index.column("file")]);
+    const auto piece = read(paths[i]);
+    EXPECT_EQ(static_cast<float>(piece.size()), number("points"));
+    for (const ReadPoint& p : piece) {
+      EXPECT_GE(p.x, number("x_min") - 1e-3f);
+      EXPECT_LE(p.x, number("x_max") + 1e-3f);
+      EXPECT_GE(p.z, number("z_min") - 1e-3f);
+      EXPECT_LE(p.z, number("z_max") + 1e-3f);
+    }
+    pieces.insert(pieces.end(), piece.begin(), piece.end());
+  }
+  std::sort(pieces.begin(), pieces.end(), byX);
+  ASSERT_EQ(pieces.size(), whole.size());
+  for (size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(pieces[i].x, whole[i].x);
+
+  // What an earlier, larger map had is gone.
+  test.map.key_nodes[0].scan = makeScan({{1, 1, 0}});
+  EXPECT_EQ(exportMap(test.map, options, stem).size(), 2u);
+  EXPECT_EQ(fileCount(folder), 2u);
+}
+
 TEST_P(CloudFiles, StreamsMoreThanOneBuffer) {
   TestMap test;
   std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 100000; ++i) points.push_back({0.1f * (i % 1000), 0.1f * (i / 1000), 0});
+  for (int i = 0; i < 100000; ++i) points.push_back({0.01f * (i % 1000), 0.1f * (i / 1000), 0});
   test.add(0, Pose3::Identity(), makeScan(points));
   const auto back = read(write(test.map));
   ASSERT_EQ(back.size(), points.size());

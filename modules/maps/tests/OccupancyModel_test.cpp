@@ -129,6 +129,26 @@ TEST(OccupancyModel, WhatCameAndLeftGoes) {
       EXPECT_EQ(cellAt(*tree, x, y, 0.1), Cell::kFree) << x << " " << y;
 }
 
+/** The last voxels of the trail were seen through more before than after. */
+TEST(OccupancyModel, WhatMovesThroughLeavesNoTrail) {
+  RayWorld hall;
+  hall.addBox({-1, 5, -3}, {12, 6, 3});
+  hall.addBox({-1, -6, -3}, {12, -5, 3});
+  hall.addBox({12, -6, -3}, {13, 6, 3});
+  TestMap test;
+  for (int i = 0; i < 12; ++i) {
+    RayWorld now = hall;
+    const double y = -0.9 + 0.6 * (i - 7);
+    if (i >= 7 && i <= 10) now.addBox({8.5, y, -0.5}, {9.1, y + 0.6, 0.5});
+    now.look({0.5 + 0.6 * i, i % 2 ? 0.5 : 0.1, 0.1}, test);
+  }
+  const auto tree = mapOf(test);
+  SurfaceCells trail;
+  for (double y = -0.8; y < 1.4; y += 0.1)
+    for (double z = -0.3; z < 0.3; z += 0.1) trail.add(cellAt(*tree, 8.51, y, z));
+  EXPECT_EQ(trail.occupied, 0u);
+}
+
 TEST(OccupancyModel, WhatCameAndStaysIsThere) {
   TestMap test;
   fillHallWithBox([](int scan) { return scan >= 9; }, test);

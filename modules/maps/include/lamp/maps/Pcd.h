@@ -9,9 +9,9 @@
 namespace lamp {
 
 /** `<stem>.pcd`: all keyed scans at the optimised poses as one binary cloud for PCL. Frame of
- * the map, metres; its offset from the world in a line `# offset X Y Z`; `rgb` is the robot's
- * colour, packed as PCL does; `intensity` is there if any scan has it and is NaN for the points of
- * scans that have none. */
+ * the map, metres; its offset from the world in a line `# offset X Y Z`; `rgb` by the option
+ * `color`, packed as PCL does; `normal_x normal_y normal_z` if asked for; `intensity` is there if
+ * any scan has it and is NaN for the points of scans that have none. In tiles: docs/maps.md. */
 class Pcd : public MapExporter {
   DEFINE_MRPT_OBJECT(Pcd, lamp)
 

@@ -10,8 +10,8 @@ namespace lamp {
 
 /** `<stem>.ply`: all keyed scans at the optimised poses as one binary little-endian cloud.
  * Frame of the map, metres; its offset from the world in a line `comment offset X Y Z`; `red green
- * blue` is the robot's colour; `intensity` is there if any scan has it and is NaN for the points of
- * scans that have none. */
+ * blue` by the option `color`; `nx ny nz` if asked for; `intensity` is there if any scan has it and
+ * is NaN for the points of scans that have none. In tiles: docs/maps.md. */
 class Ply : public MapExporter {
   DEFINE_MRPT_OBJECT(Ply, lamp)
 
