@@ -36,6 +36,8 @@ void BaseStation::receive(const KeyNodePacket& packet, const std::atomic<bool>& 
   registerNode(packet, graph_);
   scans_.add(packet);
   tracks_.add(packet);
+  if (packet.prior) robotsThatMet();  // by their start poses: nothing was missed
+  for (const auto& generator : generators_) generator->add(packet);
   if (extra_edges_.add(packet.id, packet.extras, tracks_.packets(), graph_)) optimized_all_ = false;
   propose(packet.id);
   computeRound(static_cast<size_t>(options_.closures_per_round), interrupted);
@@ -47,6 +49,8 @@ void BaseStation::receive(const RobotEnd& end) {
   const auto& nodes = graph_.robotNodes(end.robot);
   if (nodes.empty()) return;
   if (extra_edges_.add(nodes.back(), end.extras, tracks_.packets(), graph_)) optimized_all_ = false;
+  for (const auto& generator : generators_) generator->end(end.robot);
+  propose(nodes.back());
 }
 
 std::string BaseStation::apply(const OperatorAction& action, const RobotTable& robots) {
@@ -76,8 +80,7 @@ void BaseStation::propose(KeyNodeId id) {
   for (const auto& generator : generators_)
     for (const LoopClosureCandidate& candidate : generator->propose(graph_, id))
       if (isWorthTrying(candidate)) candidates.push_back(candidate);
-  candidate_count_ += candidates.size();
-  queue_.push(std::move(candidates));
+  candidate_count_ += queue_.push(std::move(candidates));
 }
 
 bool BaseStation::isWorthTrying(const LoopClosureCandidate& candidate) const {
@@ -100,11 +103,8 @@ void BaseStation::computeRound(size_t budget, const std::atomic<bool>& interrupt
   {
     const CTimeLoggerEntry timing(timer_, "loop_priority");
     candidates = queue_.take(budget, *priority_, graph_, uncertainty);
-    // Two generators may propose one pair; it may also have been computed while it waited.
-    std::set<std::pair<KeyNodeId, KeyNodeId>> seen;
-    const auto superfluous = [&](const LoopClosureCandidate& c) {
-      return !seen.insert({c.from, c.to}).second || !isWorthTrying(c);
-    };
+    // An operator may have ruled a pair out while it waited.
+    const auto superfluous = [&](const LoopClosureCandidate& c) { return !isWorthTrying(c); };
     candidates.erase(std::remove_if(candidates.begin(), candidates.end(), superfluous),
                      candidates.end());
   }
@@ -203,16 +203,32 @@ bool BaseStation::misplaced(const OptimizationResult& result) {
   std::vector<PlacedLoop> loops = placements_.takeLoops();
   candidate_count_ += loops.size();
   size_t rank = 0;
-  for (PlacedLoop& loop : loops)
-    record({loop.from, loop.to, "RobotPlacements"}, loop.guess, std::move(loop.attempt), rank++);
+  for (PlacedLoop& loop : loops) {
+    LoopClosureCandidate candidate{loop.from, loop.to, "RobotPlacements"};
+    candidate.why = "another placement";
+    record(candidate, loop.guess, std::move(loop.attempt), rank++);
+  }
   return true;
 }
 
 void BaseStation::proposeAgain() {
+  const std::set<RobotId> met = robotsThatMet();
   for (const Node& node : graph_.nodes()) {
     const Eigen::Vector3d moved = node.world_T_base.translation() - proposed_at_.at(node.id);
-    if (moved.norm() >= options_.repropose_distance_m) propose(node.id);
+    if (moved.norm() >= options_.repropose_distance_m || met.count(node.id.robot) > 0)
+      propose(node.id);
   }
+}
+
+std::set<RobotId> BaseStation::robotsThatMet() {
+  std::set<RobotId> met;
+  const std::vector<RobotId> robots = graph_.robots();
+  for (size_t i = 0; i < robots.size(); ++i)
+    for (size_t k = 0; k < i; ++k)
+      if (graph_.shareFrame(robots[k], robots[i]) &&
+          share_frame_.insert({robots[k], robots[i]}).second)
+        met.insert(robots[i]);
+  return met;
 }
 
 }  // namespace lamp

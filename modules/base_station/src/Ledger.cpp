@@ -57,11 +57,11 @@ const LedgerRow* Ledger::accepted(size_t loop_id) const {
 
 CsvTable Ledger::loops(const PoseGraph& graph, const RobotTable& robots) const {
   CsvTable table;
-  table.columns = {
-      "loop_id",    "attempt", "round",  "from",    "to",         "generator",    "priority",
-      "rank",       "stage",   "reason", "overlap", "residual_m", "guess_dist_m", "guess_angle_deg",
-      "x",          "y",       "z",      "qx",      "qy",         "qz",           "qw",
-      "gnc_weight", "chi2",    "verdict"};
+  table.columns = {"loop_id",   "attempt", "round",      "from",         "to",
+                   "generator", "why",     "priority",   "rank",         "stage",
+                   "reason",    "overlap", "residual_m", "guess_dist_m", "guess_angle_deg",
+                   "x",         "y",       "z",          "qx",           "qy",
+                   "qz",        "qw",      "gnc_weight", "chi2",         "verdict"};
   std::vector<std::string> further;
   for (const LedgerRow& row : rows_)
     for (const Score& score : row.outcome.scores)
@@ -84,6 +84,7 @@ CsvTable Ledger::loops(const PoseGraph& graph, const RobotTable& robots) const {
                                       robots.format(row.candidate.from),
                                       robots.format(row.candidate.to),
                                       row.candidate.generator,
+                                      row.candidate.why,
                                       number(row.candidate.priority),
                                       std::to_string(row.rank),
                                       outcome.stage,

@@ -18,7 +18,7 @@ class ScriptedCandidates : public CandidateGenerator {
   DEFINE_MRPT_OBJECT(ScriptedCandidates, lamp)
  public:
   void visit(OptionVisitor&) override {}
-  std::vector<LoopClosureCandidate> propose(const PoseGraph&, KeyNodeId current) const override {
+  std::vector<LoopClosureCandidate> propose(const PoseGraph&, KeyNodeId current) override {
     std::vector<LoopClosureCandidate> candidates;
     const auto add = [&](uint32_t to) {
       candidates.push_back({{current.robot, 0}, {current.robot, to}, "Scripted", 0});

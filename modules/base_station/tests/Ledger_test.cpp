@@ -98,7 +98,7 @@ class LedgerTest : public testing::Test {
 
 TEST_F(LedgerTest, HasTheDocumentedColumns) {
   const auto documented = documentedColumns("loops.csv");
-  EXPECT_EQ(documented.size(), 24u);
+  EXPECT_EQ(documented.size(), 25u);
   EXPECT_EQ(ledger_.loops(graph_, robots_).columns, documented);
   EXPECT_EQ(ledger_.verdicts().columns, (std::vector<std::string>{"round", "loop_id", "before",
                                                                   "after", "gnc_weight", "chi2"}));

@@ -82,7 +82,7 @@ std::vector<KeyNodePacket> driveAlong(const Corridor& corridor, RobotId robot, d
   return packets;
 }
 
-/** Robots without start poses; each registration starts where both drives begin at one place, so
+/** Robots without start poses; each registration starts where both key nodes are at one place, so
  * that many loop closures agree on whatever is near that. */
 class LookAlikes : public testing::Test {
  protected:
@@ -91,6 +91,8 @@ class LookAlikes : public testing::Test {
       if (k < a.size()) station_.base.receive(a[k]);
       if (k < b.size()) station_.base.receive(b[k]);
     }
+    for (const RobotId robot : {a.front().id.robot, b.front().id.robot})
+      station_.base.receive(RobotEnd{robot, {}});
     const std::atomic<bool> interrupted{false};
     station_.base.finish(interrupted);
   }
@@ -115,7 +117,7 @@ class LookAlikes : public testing::Test {
 
  private:
   Station station_{
-      "[pipeline]\ncandidates = GlobalSearch\ninitial_aligner = OdometryGuess\nexporters =\n"};
+      "[pipeline]\ncandidates = PlaceRecognition\ninitial_aligner = OdometryGuess\nexporters =\n"};
 };
 
 TEST_F(LookAlikes, RobotsApartInARowOfPillarsStayApart) {

@@ -11,8 +11,7 @@ void NeighborsOptions::visit(OptionVisitor& v) {
     kNotNegative);
 }
 
-std::vector<LoopClosureCandidate> Neighbors::propose(const PoseGraph& graph,
-                                                     KeyNodeId current) const {
+std::vector<LoopClosureCandidate> Neighbors::propose(const PoseGraph& graph, KeyNodeId current) {
   std::vector<LoopClosureCandidate> candidates;
   const Node& node = graph.node(current);
   if (!isFinite(node.world_T_base)) return candidates;
@@ -23,6 +22,7 @@ std::vector<LoopClosureCandidate> Neighbors::propose(const PoseGraph& graph,
         !isFinite(graph.node(before).world_T_base))
       continue;
     LoopClosureCandidate candidate{before, current, getLoggerName()};
+    candidate.why = "in sequence";
     candidate.certain_guess = true;
     candidates.push_back(candidate);
   }

@@ -1,13 +1,14 @@
 #include "lamp/loop_candidates/RadiusGenerators.h"
 
-#include "lamp/loop_candidates/GlobalSearch.h"
-#include "lamp/loop_candidates/Neighbors.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
+
+#include "lamp/core/Csv.h"
+#include "lamp/loop_candidates/Neighbors.h"
+#include "lamp/loop_candidates/PlaceRecognition.h"
 
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(CandidateGenerator, Stage, lamp)
 IMPLEMENTS_VIRTUAL_MRPT_OBJECT(RadiusGenerator, lamp::CandidateGenerator, lamp)
@@ -45,7 +46,7 @@ std::vector<RadiusGenerator::Near> RadiusGenerator::nearestOf(const PoseGraph& g
 }
 
 std::vector<LoopClosureCandidate> RadiusGenerator::propose(const PoseGraph& graph,
-                                                           KeyNodeId current) const {
+                                                           KeyNodeId current) {
   std::map<RobotId, std::vector<Near>> by_robot;
   std::vector<Near> nearest_of_others;
   for (const RobotId robot : graph.robots()) {
@@ -62,7 +63,8 @@ std::vector<LoopClosureCandidate> RadiusGenerator::propose(const PoseGraph& grap
   std::vector<LoopClosureCandidate> candidates;
   for (const auto& [robot, near] : by_robot)
     for (const auto& [distance, other] : near) {
-      LoopClosureCandidate candidate{other, current, getLoggerName(), 0};
+      LoopClosureCandidate candidate{other, current, getLoggerName()};
+      candidate.why = "at " + formatFixed(distance, 1) + " m";
       if (graph.place(candidate.from) > graph.place(candidate.to))
         std::swap(candidate.from, candidate.to);
       candidates.push_back(candidate);
@@ -122,8 +124,8 @@ void registerAllClasses_lamp_loop_candidates() {
   mrpt::rtti::registerClass(CLASS_ID(RadiusGenerator));
   mrpt::rtti::registerClass(CLASS_ID(FixedRadius));
   mrpt::rtti::registerClass(CLASS_ID(AdaptiveRadius));
-  mrpt::rtti::registerClass(CLASS_ID(GlobalSearch));
   mrpt::rtti::registerClass(CLASS_ID(Neighbors));
+  mrpt::rtti::registerClass(CLASS_ID(PlaceRecognition));
 }
 
 }  // namespace lamp

@@ -5,8 +5,12 @@
 
 namespace lamp {
 
-void CandidateQueue::push(std::vector<LoopClosureCandidate> candidates) {
-  std::move(candidates.begin(), candidates.end(), std::back_inserter(waiting_));
+size_t CandidateQueue::push(std::vector<LoopClosureCandidate> candidates) {
+  const size_t before = waiting_.size();
+  for (LoopClosureCandidate& candidate : candidates)
+    if (pairs_.insert({candidate.from, candidate.to}).second)
+      waiting_.push_back(std::move(candidate));
+  return waiting_.size() - before;
 }
 
 std::vector<LoopClosureCandidate> CandidateQueue::take(size_t budget, Prioritizer& prioritizer,
@@ -18,6 +22,7 @@ std::vector<LoopClosureCandidate> CandidateQueue::take(size_t budget, Prioritize
   std::vector<LoopClosureCandidate> taken(std::make_move_iterator(waiting_.begin()),
                                           std::make_move_iterator(end));
   waiting_.erase(waiting_.begin(), end);
+  for (const LoopClosureCandidate& candidate : taken) pairs_.erase({candidate.from, candidate.to});
   return taken;
 }
 

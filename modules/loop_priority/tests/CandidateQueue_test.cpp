@@ -50,6 +50,16 @@ TEST(CandidateQueue, ArrivalKeepsTheOrderAndTheBudget) {
   EXPECT_TRUE(queue.take(0, arrival, graph, NoUncertainty{}).empty());
 }
 
+TEST(CandidateQueue, APairWaitsOnce) {
+  CandidateQueue queue;
+  Arrival arrival;
+  const PoseGraph graph;
+  EXPECT_EQ(queue.push(candidates({5, 3, 5})), 2u);
+  EXPECT_EQ(queue.push(candidates({3, 4})), 1u);
+  EXPECT_EQ(indices(queue.take(2, arrival, graph, NoUncertainty{})), (std::vector<uint32_t>{5, 3}));
+  EXPECT_EQ(queue.push(candidates({5, 4})), 1u) << "5 has been taken, 4 still waits";
+}
+
 TEST(CandidateQueue, LaterCandidatesCanOvertake) {
   CandidateQueue queue;
   Newest newest;

@@ -5,6 +5,8 @@
 namespace lamp {
 
 Guess graphGuess(const PoseGraph& graph, const LoopClosureCandidate& candidate) {
+  if (candidate.recognized && !graph.shareFrame(candidate.from.robot, candidate.to.robot))
+    return {*candidate.recognized, std::nullopt};
   return {graph.node(candidate.from).world_T_base.inverse() * graph.node(candidate.to).world_T_base,
           std::nullopt};
 }

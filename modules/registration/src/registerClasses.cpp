@@ -6,6 +6,7 @@
 #include "lamp/registration/GuessDeviation.h"
 #include "lamp/registration/OverlapResidual.h"
 #include "lamp/registration/PclFitness.h"
+#include "lamp/registration/PlanarSearch.h"
 #include "lamp/registration/SacIa.h"
 #include "lamp/registration/Teaser.h"
 
@@ -18,6 +19,7 @@ void registerAllClasses_lamp_registration() {
   mrpt::rtti::registerClass(CLASS_ID(OdometryRotationGuess));
   mrpt::rtti::registerClass(CLASS_ID(SacIa));
   mrpt::rtti::registerClass(CLASS_ID(Teaser));
+  mrpt::rtti::registerClass(CLASS_ID(PlanarSearch));
   mrpt::rtti::registerClass(CLASS_ID(Refiner));
   mrpt::rtti::registerClass(CLASS_ID(Gicp));
   mrpt::rtti::registerClass(CLASS_ID(PointToPlane));

@@ -43,7 +43,7 @@ void forHopelessPairs(const Check& check) {
 }
 
 TEST(Registered, AllKindsHaveImplementations) {
-  EXPECT_EQ(registered(CLASS_ID(InitialAligner)).size(), 5u);
+  EXPECT_EQ(registered(CLASS_ID(InitialAligner)).size(), 6u);
   EXPECT_EQ(registered(CLASS_ID(Refiner)).size(), 2u);
   EXPECT_EQ(registered(CLASS_ID(Verifier)).size(), 5u);
 }

@@ -148,12 +148,25 @@ const Features& PreparedScan::features() const {
   return features_;
 }
 
+const OccupancyPyramid& PreparedScan::occupancy() const {
+  std::call_once(occupancy_made_, [this] {
+    const Clock::time_point begin = Clock::now();
+    occupancy_.emplace(cloud_.points);
+    seconds_ = seconds_ + secondsSince(begin);
+  });
+  return *occupancy_;
+}
+
 size_t PreparedScan::bytes() const {
   constexpr size_t kTreePerPoint = 24;  // leaves of ten points, an index each
+  // A pyramid's cells reach as far as the farthest points, which are a few times as far as most.
+  constexpr double kPyramidRadii = 4;
+  const double pyramid_cells = kPyramidRadii * radius_m_ / OccupancyPyramid::kCell_m;
+  const auto pyramid = planar_ ? static_cast<size_t>(pyramid_cells * pyramid_cells) : 0;
   const auto keypoints = planar_ ? 0 : static_cast<size_t>(feature_options_.max_keypoints);
   return size() * (2 * sizeof(Vector3f) + 2 * sizeof(uint32_t) + kTreePerPoint +
                    SurfaceSupport::kBytesPerPoint) +
-         free_space_.bytes() +
+         free_space_.bytes() + pyramid +
          std::min(size(), keypoints) *
              (2 * sizeof(Vector3f) + Features::kDimensions * sizeof(float));
 }

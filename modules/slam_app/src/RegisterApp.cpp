@@ -36,7 +36,7 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->type_name("TARGET")
       ->required();
   app.add_option("--config", arguments.config,
-                 "Experiment file (see ini/); without one, the defaults with Teaser as the aligner")
+                 "Experiment file (see ini/); without one, the defaults with Teaser and PlanarSearch as the aligners")
       ->type_name("CONFIG.ini");
   app.add_option("--set", arguments.overrides, "Overrides one key of the ini")
       ->type_name("SECTION.KEY=VALUE")
@@ -52,7 +52,7 @@ SlamConfig readConfig(const Arguments& arguments) {
   if (!arguments.config.empty()) return SlamConfig::fromFile(arguments.config, arguments.overrides);
   Faults faults;
   Ini ini;
-  ini.set("pipeline", "initial_aligner", "Teaser", "lamp-register");
+  ini.set("pipeline", "initial_aligner", "Teaser, PlanarSearch", "lamp-register");
   for (const std::string& assignment : arguments.overrides) ini.set(assignment, faults);
   return SlamConfig(std::move(ini), std::move(faults));
 }

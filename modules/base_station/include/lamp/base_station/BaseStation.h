@@ -5,7 +5,9 @@
 
 #include <atomic>
 #include <memory>
+#include <set>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "lamp/base_station/BaseStationOptions.h"
@@ -80,6 +82,8 @@ class BaseStation : public mrpt::system::COutputLogger {
   OptimizationResult solve();
   bool misplaced(const OptimizationResult& result);
   void proposeAgain();
+  /** Robots that share a frame with another one, and did not at the last call. */
+  std::set<RobotId> robotsThatMet();
 
   const BaseStationOptions options_;
   const bool inter_robot_loops_;
@@ -100,6 +104,7 @@ class BaseStation : public mrpt::system::COutputLogger {
   RobotPlacements placements_;
   /** Where each key node stood when candidates were last sought for it. */
   std::unordered_map<KeyNodeId, Eigen::Vector3d> proposed_at_;
+  std::set<std::pair<RobotId, RobotId>> share_frame_;
 
   size_t round_ = 0;
   size_t candidate_count_ = 0;

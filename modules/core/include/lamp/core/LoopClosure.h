@@ -16,6 +16,9 @@ struct LoopClosureCandidate {
   std::string generator;       ///< the stage that proposed it
   double priority = 0;         ///< set by the prioritizer; larger is sooner
   bool certain_guess = false;  ///< the graph's guess is good: none is to be searched for
+  /** Where a recognised place puts `to` seen from `from`: a start where the graph has none. */
+  std::optional<Pose3> recognized = std::nullopt;
+  std::string why = {};  ///< why it was proposed, in a few words
 };
 
 /** A relative pose to start from, with what the graph knows of its error. */

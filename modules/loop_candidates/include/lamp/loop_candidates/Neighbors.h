@@ -20,8 +20,7 @@ class Neighbors : public CandidateGenerator {
  public:
   NeighborsOptions options;
   void visit(OptionVisitor& v) override { options.visit(v); }
-  std::vector<LoopClosureCandidate> propose(const PoseGraph& graph,
-                                            KeyNodeId current) const override;
+  std::vector<LoopClosureCandidate> propose(const PoseGraph& graph, KeyNodeId current) override;
 };
 
 }  // namespace lamp

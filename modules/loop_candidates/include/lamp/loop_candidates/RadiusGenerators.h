@@ -15,8 +15,7 @@ class RadiusGenerator : public CandidateGenerator {
   DEFINE_VIRTUAL_MRPT_OBJECT(RadiusGenerator)
 
  public:
-  std::vector<LoopClosureCandidate> propose(const PoseGraph& graph,
-                                            KeyNodeId current) const override;
+  std::vector<LoopClosureCandidate> propose(const PoseGraph& graph, KeyNodeId current) override;
 
  protected:
   /** A key node and how far it is from the current one. */

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "lamp/loop_priority/Prioritizer.h"
@@ -9,7 +11,8 @@ namespace lamp {
 /** Candidates that wait for their computation. */
 class CandidateQueue {
  public:
-  void push(std::vector<LoopClosureCandidate> candidates);
+  /** Pairs that wait already are left out. \return how many are new. */
+  size_t push(std::vector<LoopClosureCandidate> candidates);
   size_t size() const { return waiting_.size(); }
 
   /** Orders all that waits and takes the first ones.
@@ -20,6 +23,7 @@ class CandidateQueue {
 
  private:
   std::vector<LoopClosureCandidate> waiting_;
+  std::set<std::pair<KeyNodeId, KeyNodeId>> pairs_;  ///< of those
 };
 
 }  // namespace lamp

@@ -10,7 +10,8 @@
 namespace lamp {
 
 /** What the poses of the graph say of a candidate: the newer key node (source) seen from the older
- * one (target), without a covariance. */
+ * one (target), without a covariance. Of robots that share no frame they say nothing: there it is
+ * what the generator has recognised. */
 Guess graphGuess(const PoseGraph& graph, const LoopClosureCandidate& candidate);
 
 /** The same for many, with the graph's covariance where the two are connected. */

@@ -5,12 +5,14 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "lamp/core/KdTree.h"
 #include "lamp/scans/Cloud.h"
 #include "lamp/scans/Features.h"
 #include "lamp/scans/FreeSpace.h"
+#include "lamp/scans/PlanarAlignment.h"
 #include "lamp/scans/SurfaceSupport.h"
 
 namespace lamp {
@@ -63,6 +65,8 @@ class PreparedScan {
   bool isOnSurface(size_t i) const { return support_->at(i); }
   /** Computed when first asked for: not every aligner needs them. */
   const Features& features() const;
+  /** Of a planar scan, computed when first asked for. */
+  const OccupancyPyramid& occupancy() const;
   /** How much farther apart its points lie than those of the scans that lengths among the options
    * of registration were chosen for; 1 for denser scans. Such lengths grow with it. */
   double coarseness() const { return coarseness_; }
@@ -86,6 +90,8 @@ class PreparedScan {
   std::unique_ptr<const SurfaceSupport> support_;
   mutable std::once_flag features_made_;
   mutable Features features_;
+  mutable std::once_flag occupancy_made_;
+  mutable std::optional<OccupancyPyramid> occupancy_;
   mutable std::atomic<double> seconds_{0};
 };
 using PreparedScanPtr = std::shared_ptr<const PreparedScan>;

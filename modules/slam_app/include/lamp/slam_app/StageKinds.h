@@ -11,9 +11,9 @@ namespace lamp {
 /** Section `[pipeline]`: which stages take part, by name. */
 struct PipelineOptions {
   std::vector<std::string> odometry{"LidarOdometry", "RecordedOdometry"};
-  std::vector<std::string> candidates{"AdaptiveRadius", "GlobalSearch", "Neighbors"};
+  std::vector<std::string> candidates{"AdaptiveRadius", "PlaceRecognition", "Neighbors"};
   std::vector<std::string> priority{"Arrival"};
-  std::vector<std::string> initial_aligner{"OdometryGuess", "Teaser"};
+  std::vector<std::string> initial_aligner{"OdometryGuess", "Teaser", "PlanarSearch"};
   std::vector<std::string> refiner{"Gicp"};
   std::vector<std::string> verifiers{"GuessDeviation", "OverlapResidual", "FreeSpaceConsistency",
                                      "BothDirections"};
