@@ -28,7 +28,7 @@ bool SameHeading::maybeLoop(const Node& current, const Node& other) const {
 }
 
 std::vector<LoopClosureCandidate> SameHeading::propose(const PoseGraph& graph,
-                                                       KeyNodeId current) const {
+                                                       KeyNodeId current) {
   const Node& here = graph.node(current);
   std::vector<LoopClosureCandidate> candidates;
   for (const RobotId robot : graph.robots()) {

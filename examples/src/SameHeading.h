@@ -21,7 +21,7 @@ class SameHeading : public CandidateGenerator {
  public:
   void visit(OptionVisitor& v) override { options_.visit(v); }
   std::vector<LoopClosureCandidate> propose(const PoseGraph& graph,
-                                            KeyNodeId current) const override;
+                                            KeyNodeId current) override;
 
  private:
   bool maybeLoop(const Node& current, const Node& other) const;

@@ -58,20 +58,17 @@ double headingStep(const std::vector<Eigen::Vector2d>& points) {
 class Search {
  public:
   Search(const std::vector<Eigen::Vector3f>& source, const OccupancyPyramid& target,
-         const PlanarWindow& window)
-      : target_(target), window_(window), half_(OccupancyPyramid::cellOf(window.half_width_m)) {
+         double radius_m)
+      : target_(target), half_(OccupancyPyramid::cellOf(radius_m)) {
     const std::vector<Eigen::Vector2d> points = thinned(source);
     if (points.empty()) return;
     const double step = headingStep(points);
-    const auto steps = static_cast<int>(std::ceil(window.half_yaw / step));
-    for (int k = -steps; k <= steps; ++k) {
-      const double heading = window.yaw + k * step;
-      if (k > -steps && std::abs(heading - headings_.front()) > 2 * M_PI - 0.5 * step) break;
+    for (double heading = -M_PI; heading < M_PI; heading += step) {
       headings_.push_back(heading);
       Cells cells;
       const Eigen::Rotation2Dd turn(heading);
       for (const Eigen::Vector2d& point : points) {
-        const Eigen::Vector2d p = turn * point + window.centre;
+        const Eigen::Vector2d p = turn * point;
         cells.emplace_back(OccupancyPyramid::cellOf(p.x()), OccupancyPyramid::cellOf(p.y()));
       }
       cells_.push_back(std::move(cells));
@@ -98,8 +95,7 @@ class Search {
   }
 
   PlanarPlacement placement(const Block& block) const {
-    const Eigen::Vector2d shift =
-        window_.centre + OccupancyPyramid::kCell_m * block.shift.cast<double>();
+    const Eigen::Vector2d shift = OccupancyPyramid::kCell_m * block.shift.cast<double>();
     return {planarPose(shift.x(), shift.y(), headings_[block.heading]),
             static_cast<double>(block.score) / static_cast<double>(point_count_)};
   }
@@ -111,7 +107,7 @@ class Search {
 
   Block bounded(int level, size_t heading, const Eigen::Vector2i& shift) const {
     Block block{0, heading, shift};
-    if (shift.maxCoeff() > half_) return block;  // outside the window
+    if (shift.maxCoeff() > half_) return block;  // beyond the radius
     for (const Eigen::Vector2i& cell : cells_[heading])
       block.score += target_.occupied(level, cell.x() + shift.x(), cell.y() + shift.y()) ? 1 : 0;
     return block;
@@ -151,10 +147,9 @@ class Search {
   }
 
   const OccupancyPyramid& target_;
-  const PlanarWindow window_;
   const int half_;  ///< the largest shift, cells
   std::vector<double> headings_;
-  std::vector<Cells> cells_;  ///< of the source, by heading, with the window's centre as its place
+  std::vector<Cells> cells_;  ///< of the source, by heading
   size_t point_count_ = 0;
   int least_ = 1, best_ = 0;
   std::vector<Block> found_;
@@ -208,9 +203,9 @@ OccupancyPyramid::OccupancyPyramid(const std::vector<Eigen::Vector3f>& points) {
 }
 
 std::vector<PlanarPlacement> alignInPlane(const std::vector<Eigen::Vector3f>& source,
-                                          const OccupancyPyramid& target,
-                                          const PlanarWindow& window, size_t max_placements) {
-  Search search(source, target, window);
+                                          const OccupancyPyramid& target, double radius_m,
+                                          size_t max_placements) {
+  Search search(source, target, radius_m);
   std::vector<PlanarPlacement> placements;
   for (const Block& block : search.blocks()) {
     const PlanarPlacement placement = search.placement(block);

