@@ -46,7 +46,7 @@ TEST(SlamConfig, AnEmptyIniGivesTheDefaults) {
   EXPECT_EQ(config.make<CandidateGenerator>().size(), 3u);
   EXPECT_EQ(config.make<CandidateGenerator>()[0]->getLoggerName(), "AdaptiveRadius");
   EXPECT_EQ(config.makeOne<Refiner>()->getLoggerName(), "Gicp");
-  EXPECT_EQ(config.make<InitialAligner>().size(), 2u);
+  EXPECT_EQ(config.make<InitialAligner>().size(), 3u);
   EXPECT_EQ(config.make<Verifier>().size(), 4u);
   EXPECT_EQ(config.make<MapExporter>().size(), config.pipeline.exporters.size());
   EXPECT_TRUE(config.robots.empty());
