@@ -24,6 +24,6 @@ run(${WORK}/prefix/bin/lamp-slam ${SOURCE}/examples/stages.ini --out ${WORK}/run
   --set plugins.load=${WORK}/build/liblamp_examples.so --set pipeline.exporters=)
 
 expect(config.ini "max_angle_deg = 60\n" "SameHeading has its option from the ini")
-expect(loops.csv ",SameHeading,[0-9.]*[1-9][0-9.]*,[0-9]+,verified,"
+expect(loops.csv ",SameHeading,[^,]*,[0-9.]*[1-9][0-9.]*,[0-9]+,verified,"
   "candidates of SameHeading, with a priority of MostUncertain's, become loop closures")
 expect(summary.json "trimmed in [0-9]+ rounds" "TrimmedLm is the optimizer")

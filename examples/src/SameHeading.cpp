@@ -44,7 +44,8 @@ std::vector<LoopClosureCandidate> SameHeading::propose(const PoseGraph& graph,
     std::sort(near.begin(), near.end());
     near.resize(std::min(near.size(), static_cast<size_t>(options_.max_per_robot)));
     for (const auto& [distance, other] : near) {
-      LoopClosureCandidate candidate{other, current, getLoggerName(), 0};
+      LoopClosureCandidate candidate{other, current, getLoggerName()};
+      candidate.why = "looks the same way";
       if (graph.place(candidate.from) > graph.place(candidate.to))  // `from` is the older one
         std::swap(candidate.from, candidate.to);
       candidates.push_back(candidate);
