@@ -27,6 +27,7 @@ BaseStation::BaseStation(BaseStationSetup setup, mrpt::system::CTimeLogger& time
       priority_(std::move(setup.priority)),
       computation_(std::move(setup.computation)),
       back_end_(std::move(setup.back_end)),
+      refinement_options_(setup.refinement),
       timer_(timer),
       scans_(setup.preparation),
       extra_edges_(std::move(setup.extra_edges)),
@@ -71,6 +72,24 @@ void BaseStation::finish(const std::atomic<bool>& interrupted) {
     if (!interrupted) computeRound(0, interrupted);
     if (!optimized_all_ && !operator_.frozen()) optimize();
   } while (queue_.size() > 0 && !interrupted);
+}
+
+void BaseStation::refine(const std::function<bool(double share)>& go_on) {
+  if (operator_.frozen() || generators_.empty()) return;
+  const CTimeLoggerEntry timing(timer_, "refinement");
+  std::vector<KeyedScanPtr> scans;
+  for (const Node& node : graph_.nodes()) scans.push_back(tracks_.packets().at(node.id).scan);
+  PoseGraph graph = graph_;
+  for (Edge& edge : graph.edges())
+    if (edge.type == EdgeType::kOdometry)
+      edge.information /= report_.odometry_scale * report_.odometry_scale;
+  const JointAdjustmentResult result = adjustJointly(graph, scans, refinement_options_, go_on);
+  refinement_ = result.report;
+  if (!refinement_.kept) return;
+  for (size_t i = 0; i < result.world_T_base.size(); ++i)
+    graph_.node(graph_.nodes()[i].id).world_T_base = result.world_T_base[i];
+  for (LandmarkIndex i = 0; i < result.landmarks.size(); ++i)
+    if (result.landmarks[i]) graph_.landmarks()[i].world_p = *result.landmarks[i];
 }
 
 void BaseStation::propose(KeyNodeId id) {

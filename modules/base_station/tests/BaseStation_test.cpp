@@ -277,6 +277,43 @@ TEST(BaseStation, FinishOptimizesWhatIsLeft) {
   for (const Edge& edge : station.base.graph().edges()) EXPECT_NE(edge.verdict, Verdict::kPending);
 }
 
+/** R.m.s. error of all key nodes, metres. */
+double keyNodeError(const Team& team, const Station& station) {
+  double squares = 0;
+  for (const RobotDrive& of_robot : team.drives) {
+    const double error = rmse(
+        of_robot.truth, keyNodeTrajectory(station.base.graph(), of_robot.packets.front().id.robot));
+    squares += error * error;
+  }
+  return std::sqrt(squares / static_cast<double>(team.drives.size()));
+}
+
+TEST(BaseStation, RefinementComesNearerToTheTruth) {
+  const Team team(false);
+  Station station(teamIni());
+  team.sendTo(station.base);
+  const double before = keyNodeError(team, station);
+  station.base.refine([](double) { return true; });
+  EXPECT_TRUE(station.base.refinement().kept);
+  EXPECT_LT(keyNodeError(team, station), before);
+}
+
+TEST(BaseStation, RefinementLeavesWhatIsFrozenAndWhatFollowsOdometryAlone) {
+  const Team team(false);
+  Station frozen(teamIni());
+  team.sendTo(frozen.base);
+  OperatorAction freeze;
+  freeze.kind = ActionKind::kFreeze;
+  frozen.base.apply(freeze, {});
+  Station without_loops("[pipeline]\ncandidates =\nexporters =\n");
+  team.sendTo(without_loops.base);
+  for (Station* station : {&frozen, &without_loops}) {
+    station->base.refine([](double) { return true; });
+    EXPECT_EQ(station->base.refinement().surfels, 0u);
+    EXPECT_FALSE(station->base.refinement().kept);
+  }
+}
+
 TEST(BaseStation, SurvivesFinishWithoutAnything) {
   Station station(teamIni());
   const std::atomic<bool> interrupted{false};

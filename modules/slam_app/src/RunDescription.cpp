@@ -77,6 +77,22 @@ std::string describeMaps(const RunFolder& folder, const RunResult& result,
   return text.str();
 }
 
+/** What the joint adjustment has done; nothing if it took no part. */
+std::string describeRefinement(const JointAdjustmentReport& report) {
+  if (report.surfels == 0) return "";
+  if (report.pairs == 0)
+    return "refinement: no two key nodes share enough surface to be adjusted together\n";
+  const std::string before = formatFixed(1000 * report.before.rms_m, 1),
+                    after = formatFixed(1000 * report.after.rms_m, 1);
+  if (!report.kept)
+    return "refinement: undone, since surfaces that were held back did not come nearer to one "
+           "another (" +
+           before + " mm)\n";
+  return "refinement: " + std::to_string(report.surfels) + " surfaces tie " +
+         std::to_string(report.pairs) + " pairs of key nodes; others that were held back lie " +
+         after + " mm apart instead of " + before + "\n";
+}
+
 }  // namespace
 
 std::string describeRun(const RunFolder& folder, const RunResult& result) {
@@ -91,6 +107,7 @@ std::string describeRun(const RunFolder& folder, const RunResult& result) {
     text << "other sensors: " << counts.edges << " measurements of gravity, "
          << base.graph().landmarks().size() << " landmarks and distances, " << counts.inliers
          << " kept\n";
+  text << describeRefinement(base.refinement());
   if (components.size() > 1)
     text << "No trusted loop closure joins these " << components.size()
          << " components: they stay separate maps.\n";

@@ -157,6 +157,7 @@ SlamConfig::SlamConfig(Ini ini, Faults faults) : ini_(std::move(ini)) {
   readOptions(ini_.find("gate"), gate, faults);
   readOptions(ini_.find("registration"), registration, faults);
   readOptions(ini_.find("base_station"), base_station, faults);
+  readOptions(ini_.find("refinement"), refinement, faults);
   readRobots(faults);
   readBeacons(faults);
   checkGate(faults);
@@ -244,8 +245,9 @@ std::vector<std::shared_ptr<Stage>> SlamConfig::make(const StageKind& kind) cons
 
 /** Sections that nothing reads are faults; options of stages that take no part are checked too. */
 void SlamConfig::checkSections(Faults& faults) const {
-  static const std::vector<std::string> kSections = {
-      "plugins", "run", "input", "pipeline", "frontend", "gate", "registration", "base_station"};
+  static const std::vector<std::string> kSections = {"plugins",      "run",          "input",
+                                                     "pipeline",     "frontend",     "gate",
+                                                     "registration", "base_station", "refinement"};
   for (const Ini::Section& section : ini_.sections()) {
     const std::string& name = section.name;
     const bool known = name.rfind(kRobotPrefix, 0) == 0 || name.rfind(kBeaconPrefix, 0) == 0 ||
@@ -281,6 +283,7 @@ BaseStationSetup SlamConfig::makeBaseStationSetup() const {
           registration.preparation,
           makeLoopClosureComputation(),
           {make<OutlierRejection>(), makeOne<Optimizer>()},
+          refinement,
           {robots, beacons}};
 }
 
@@ -291,7 +294,8 @@ std::string SlamConfig::text() const {
       writeOptions("input", copy.input) + "\n" + writeOptions("pipeline", copy.pipeline) + "\n" +
       writeOptions("frontend", copy.frontend) + "\n" + writeOptions("gate", copy.gate) + "\n" +
       writeOptions("registration", copy.registration) + "\n" +
-      writeOptions("base_station", copy.base_station);
+      writeOptions("base_station", copy.base_station) + "\n" +
+      writeOptions("refinement", copy.refinement);
   for (RobotOptions& robot : copy.robots)
     text += "\n" + writeOptions(kRobotPrefix + robot.name, robot);
   for (BeaconOptions& beacon : copy.beacons)
@@ -317,8 +321,8 @@ std::string describeParameters() {
           table("input", InputOptions{}) + table("pipeline", PipelineOptions{}) +
           table("frontend", FrontEndOptions{}) + table("gate", GateOptions{}) +
           table("registration", RegistrationOptions{}) +
-          table("base_station", BaseStationOptions{}) + table("robot.NAME", RobotOptions{}) +
-          table("beacon.NAME", BeaconOptions{});
+          table("base_station", BaseStationOptions{}) + table("refinement", RefinementOptions{}) +
+          table("robot.NAME", RobotOptions{}) + table("beacon.NAME", BeaconOptions{});
   for (const StageKind& kind : stageKinds()) {
     text += "## [pipeline] " + std::string(kind.key) + "\n\n";
     for (const std::string& name : stageClasses(kind.base)) {

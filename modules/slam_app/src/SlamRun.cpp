@@ -136,6 +136,17 @@ void SlamRun::act(BaseStation& base, const RobotTable& robots, bool all) {
   }
 }
 
+void SlamRun::refine(BaseStation& base) const {
+  Progress progress;
+  tbb::task_arena arena(job_.threads);
+  arena.execute([&] {
+    base.refine([&](double share) {
+      progress.show(share, "adjusting all scans together");
+      return !interrupted_;
+    });
+  });
+}
+
 SlamRun::Outcome SlamRun::run() {
   RobotTable robots;
   RawlogSource source(config_.input.rawlogs, config_.robots, robots);
@@ -183,6 +194,7 @@ SlamRun::Outcome SlamRun::run() {
     });
     front_end.join();
   }
+  refine(base_station);
 
   RunResult result{config_,           robots,       base_station,   team.reports(),
                    source.warnings(), interrupted_, world_p_origin_};

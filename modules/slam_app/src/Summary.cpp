@@ -120,6 +120,19 @@ Json optimizationSummary(const RunResult& result) {
   return json;
 }
 
+Json fitSummary(const HeldBackFit& fit) {
+  return {{"patches", fit.patches}, {"rms_m", fit.rms_m}};
+}
+
+Json refinementSummary(const JointAdjustmentReport& report) {
+  return {{"rounds", report.rounds},
+          {"surfels", report.surfels},
+          {"pairs", report.pairs},
+          {"held_back_before", fitSummary(report.before)},
+          {"held_back_after", fitSummary(report.after)},
+          {"kept", report.kept}};
+}
+
 }  // namespace
 
 Json summarize(const RunResult& result, const std::vector<std::string>& not_written) {
@@ -138,6 +151,7 @@ Json summarize(const RunResult& result, const std::vector<std::string>& not_writ
                    {"inliers", loops.inliers}};
   json["measurements"] = measurementSummary(base.graph());
   json["optimization"] = optimizationSummary(result);
+  json["refinement"] = refinementSummary(base.refinement());
   json["robots"] = Json::array();
   for (const RobotId robot : result.robots.ids())
     json["robots"].push_back(robotSummary(result, robot));

@@ -192,9 +192,9 @@ TEST(SlamConfig, TextHoldsEveryUsedStageOnce) {
       configFrom("[pipeline]\nverifiers = GuessDeviation, GuessDeviation\n").text();
   for (const char* section :
        {"[plugins]", "[run]", "[input]", "[pipeline]", "[frontend]", "[registration]",
-        "[base_station]", "[lamp::RecordedOdometry]", "[lamp::AdaptiveRadius]", "[lamp::Arrival]",
-        "[lamp::OdometryGuess]", "[lamp::Gicp]", "[lamp::GuessDeviation]", "[lamp::Gnc]",
-        "[lamp::Ply]"}) {
+        "[base_station]", "[refinement]", "[lamp::RecordedOdometry]", "[lamp::AdaptiveRadius]",
+        "[lamp::Arrival]", "[lamp::OdometryGuess]", "[lamp::Gicp]", "[lamp::GuessDeviation]",
+        "[lamp::Gnc]", "[lamp::Ply]"}) {
     const size_t first = text.find(section);
     EXPECT_NE(first, std::string::npos) << section;
     EXPECT_EQ(text.find(section, first + 1), std::string::npos) << section;

@@ -4,6 +4,7 @@
 #include <mrpt/system/CTimeLogger.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <set>
 #include <unordered_map>
@@ -23,6 +24,7 @@
 #include "lamp/loop_priority/CandidateQueue.h"
 #include "lamp/loop_priority/Prioritizer.h"
 #include "lamp/pose_graph/BackEnd.h"
+#include "lamp/refinement/JointAdjustment.h"
 #include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/registration/PreparedScanStore.h"
 
@@ -37,6 +39,7 @@ struct BaseStationSetup {
   PreparationOptions preparation;
   LoopClosureComputation computation;
   BackEnd back_end;
+  RefinementOptions refinement;
   ExtraEdges extra_edges;
 };
 
@@ -59,6 +62,10 @@ class BaseStation : public mrpt::system::COutputLogger {
   std::string apply(const OperatorAction& action, const RobotTable& robots);
   /** Computes what still waits, until `interrupted`, and optimises a last time. */
   void finish(const std::atomic<bool>& interrupted);
+  /** Adjusts all scans together; nothing may be received after it. Where no loop closures are
+   * sought, or an operator has frozen the map, poses stay. \param go_on asked now and then, with
+   * the share of the work that is done, whether to go on. */
+  void refine(const std::function<bool(double share)>& go_on);
 
   const PoseGraph& graph() const { return graph_; }
   const Ledger& ledger() const { return ledger_; }
@@ -66,6 +73,7 @@ class BaseStation : public mrpt::system::COutputLogger {
   size_t candidates() const { return candidate_count_; }
   size_t optimizations() const { return optimization_count_; }
   const OptimizationReport& lastReport() const { return report_; }
+  const JointAdjustmentReport& refinement() const { return refinement_; }
   PreparationReport preparation() const { return scans_.report(); }
   const RobotTracks& tracks() const { return tracks_; }
 
@@ -91,6 +99,7 @@ class BaseStation : public mrpt::system::COutputLogger {
   const std::shared_ptr<Prioritizer> priority_;
   const LoopClosureComputation computation_;
   const BackEnd back_end_;
+  const RefinementOptions refinement_options_;
   mrpt::system::CTimeLogger& timer_;
 
   PoseGraph graph_;
@@ -113,6 +122,7 @@ class BaseStation : public mrpt::system::COutputLogger {
   size_t optimized_loops_ = 0;
   bool optimized_all_ = true;
   OptimizationReport report_;
+  JointAdjustmentReport refinement_;
 };
 
 }  // namespace lamp

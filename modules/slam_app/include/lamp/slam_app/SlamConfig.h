@@ -10,6 +10,7 @@
 #include "lamp/frontend/FrontEnd.h"
 #include "lamp/frontend/GateCalibration.h"
 #include "lamp/input/RobotOptions.h"
+#include "lamp/refinement/RefinementOptions.h"
 #include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/registration/PreparedScanStore.h"
 #include "lamp/slam_app/StageKinds.h"
@@ -71,6 +72,7 @@ class SlamConfig {
   GateOptions gate;
   RegistrationOptions registration;
   BaseStationOptions base_station;
+  RefinementOptions refinement;
   std::vector<RobotOptions> robots;    ///< in the order of the ini
   std::vector<BeaconOptions> beacons;  ///< in the order of the ini
 

@@ -44,6 +44,8 @@ class SlamRun : public mrpt::system::COutputLogger {
   bool mapsDue(const BaseStation& base) const;
   /** Does the actions that are due, or all. */
   void act(BaseStation& base, const RobotTable& robots, bool all);
+  /** Adjusts all scans together, and shows how far that is. */
+  void refine(BaseStation& base) const;
   void warn(const std::vector<std::string>& warnings, const std::string& prefix = "");
 
   SlamConfig config_;
