@@ -202,6 +202,10 @@ TEST_P(TurningRobot, WallsAreAsThinAsThoseOfARobotAtRest) {
   EXPECT_LT(own_m, 1.3 * at_rest_m);
 }
 
+void PrintTo(const Turn& turn, std::ostream* out) {
+  *out << turn.world;
+}
+
 // Three lidars, whose scans are not of the same time, and the motion is to be found with the scan;
 // one lidar with all that helps.
 INSTANTIATE_TEST_SUITE_P(Turns, TurningRobot,
