@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "TestTeam.h"
 
 namespace lamp {
@@ -31,12 +33,13 @@ class Corridor {
   }
   void addCrate(double x) { boxes_.push_back({{x, 0.2, -1}, {x + 1.2, 1.5, 0.8}}); }
 
-  KeyedScanPtr scan(const Pose3& world_T_base, unsigned seed) const {
+  KeyedScanPtr scan(const Pose3& world_T_base, unsigned seed, bool planar) const {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0, 0.01);
     auto scan = std::make_shared<Scan>();
-    for (int ring = -15; ring <= 15; ring += 2)
-      for (int azimuth = 0; azimuth < 360; azimuth += 2) {
+    const int rings = planar ? 0 : 15, step = planar ? 1 : 2;
+    for (int ring = -rings; ring <= rings; ring += 2)
+      for (int azimuth = 0; azimuth < 360; azimuth += step) {
         const double a = azimuth * M_PI / 180, e = ring * M_PI / 180;
         const Eigen::Vector3d ray(std::cos(a) * std::cos(e), std::sin(a) * std::cos(e),
                                   std::sin(e));
@@ -51,8 +54,9 @@ class Corridor {
  private:
   double hit(const Pose3& world_T_base, const Eigen::Vector3d& ray) const {
     const Eigen::Vector3d& from = world_T_base.translation();
-    double range = std::min(((ray.y() > 0 ? 2 : -2) - from.y()) / ray.y(),
-                            ((ray.z() > 0 ? 2 : -1) - from.z()) / ray.z());
+    double range =
+        std::min(((ray.y() > 0 ? 2 : -2) - from.y()) / ray.y(),
+                 ray.z() == 0 ? INFINITY : ((ray.z() > 0 ? 2 : -1) - from.z()) / ray.z());
     for (const Box& box : boxes_) range = std::min(range, box.hit(from.array(), ray.array()));
     return range;
   }
@@ -62,7 +66,7 @@ class Corridor {
 
 /** A drive of 20 m along the corridor, a key node every 2 m. */
 std::vector<KeyNodePacket> driveAlong(const Corridor& corridor, RobotId robot, double from,
-                                      double direction) {
+                                      double direction, bool planar = false) {
   std::vector<KeyNodePacket> packets;
   for (uint32_t k = 0; k <= 10; ++k) {
     // Not exactly along the axes: rays must not run within the boxes' faces.
@@ -71,7 +75,8 @@ std::vector<KeyNodePacket> driveAlong(const Corridor& corridor, RobotId robot, d
     packet.id = {robot, k};
     packet.stamp = 1000 + 2.0 * k + 0.1 * robot.value;
     packet.odom_T_base = planarPose(2.0 * k, 0, 0);
-    packet.scan = corridor.scan(truth, 100 * (robot.value + 1u) + k);
+    packet.planar = planar;
+    packet.scan = corridor.scan(truth, 100 * (robot.value + 1u) + k, planar);
     Vector6d sigmas;
     sigmas << 0.04, 0.04, 0.04, 0.005, 0.005, 0.005;
     if (k > 0)
@@ -130,6 +135,30 @@ TEST_F(LookAlikes, RobotsApartInARowOfPillarsStayApart) {
     if (std::abs(yawOf(placement)) > 0.1) continue;
     const double pillars = (placement.translation().x() - 50) / 3;
     EXPECT_NEAR(pillars, std::round(pillars), 0.1) << placement.translation().transpose();
+  }
+}
+
+TEST_F(LookAlikes, RobotsWith2dLasersAreNoException) {
+  Corridor with_crate = corridor_;
+  with_crate.addCrate(34);
+  for (const auto& [corridor, start, maps] :
+       {std::tuple(corridor_, 29.0, 2u), {corridor_, 70.0, 2u}, {with_crate, 29.0, 1u}}) {
+    Station station{
+        "[pipeline]\ncandidates = PlaceRecognition\n"
+        "initial_aligner = OdometryGuess, PlanarSearch\nexporters =\n"};
+    for (const auto& packets :
+         {driveAlong(corridor, kA, 20, 1, true), driveAlong(corridor, kB, start, 1, true)})
+      for (const KeyNodePacket& packet : packets) station.base.receive(packet);
+    for (const RobotId robot : {kA, kB}) station.base.receive(RobotEnd{robot, {}});
+    const std::atomic<bool> interrupted{false};
+    station.base.finish(interrupted);
+    EXPECT_GT(station.base.candidates(), 0u);
+    EXPECT_EQ(station.base.graph().components().size(), maps) << start;
+    if (maps > 1) continue;
+    const PoseGraph& graph = station.base.graph();
+    const Pose3 a_T_b =
+        graph.node({kA, 0}).world_T_base.inverse() * graph.node({kB, 0}).world_T_base;
+    EXPECT_NEAR(a_T_b.translation().x(), 9, 0.2);
   }
 }
 

@@ -203,7 +203,7 @@ TEST_P(TurningRobot, WallsAreAsThinAsThoseOfARobotAtRest) {
 }
 
 void PrintTo(const Turn& turn, std::ostream* out) {
-  *out << turn.world;
+  *out << turn.world << (turn.evenly ? ", evenly" : ", to and fro");
 }
 
 // Three lidars, whose scans are not of the same time, and the motion is to be found with the scan;
