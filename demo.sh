@@ -30,6 +30,7 @@ In $out, for both recordings (sena, team):
   $out/*/maps/map.png               the map seen from above: any picture viewer
   $out/*/maps/map.ply, map.pcd      the point cloud: CloudCompare, SceneViewer3D, pcl_viewer
   $out/*/maps/map.bt, map.ot        the OctoMap: octovis
+  $out/*/maps/map.yaml, map.pgm     the grid for planners: map_server of ROS; any picture viewer
   $out/*/trajectories/*.tum         the trajectories: evo_traj tum
   $out/*/graph.g2o, graph.graph     the pose graph: g2o_viewer; graph-slam (MRPT)
   $out/*/keyframes/*.rawlog         the keyed scans: RawLogViewer

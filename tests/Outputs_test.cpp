@@ -33,7 +33,7 @@ class Outputs : public testing::Test {
     const LampResult end = experiment_.run(
         {experiment_.file("two.ini", iniFor3d(exporters, starts)),
          experiment_.rawlog("A.rawlog", a_.objects), experiment_.rawlog("B.rawlog", b_.objects),
-         "--set", "lamp::OctoMap.resolution_m=0.1"});
+         "--set", "occupancy.resolution_m=0.1"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
     EXPECT_EQ(run().summary()["components"].size(), 1u);
   }

@@ -9,7 +9,7 @@
 
 #include "CloudTiles.h"
 #include "MapPoints.h"
-#include "OccupancyMap.h"
+#include "OccupiedSpace.h"
 #include "PointColors.h"
 #include "SolidPoints.h"
 #include "lamp/core/Csv.h"
@@ -38,12 +38,6 @@ double sideOf(const CloudOptions& options) {
                              : side_m;
 }
 
-VoxelStates statesOf(const ComponentMap& map, const OccupancyMap::Options& options) {
-  OccupancyMap occupancy(options);
-  occupancy.update(map);
-  return classify(occupancy.counts(), occupiedVoxels(occupancy.counts()), {});
-}
-
 /** The points of a map, piece by piece, and what is written of each. */
 class Cloud {
  public:
@@ -55,9 +49,9 @@ class Cloud {
         colors_(map, options.color),
         tiles_(map, sideOf(options), options.normals ? kMarginM : 0) {
     if (options.moving) return;
-    constexpr OccupancyMap::Options kGrid;
-    states_ = statesOf(map, kGrid);
-    solid_.emplace(states_, SolidPoints::Grid{kGrid.resolution_m, kGrid.max_range_m});
+    const OccupancyOptions& grid = map.occupancy->options();
+    solid_.emplace(map.occupancy->of(map).states(),
+                   SolidPoints::Grid{grid.resolution_m, grid.max_range_m});
   }
 
   const CloudTiles& tiles() const { return tiles_; }
@@ -118,7 +112,6 @@ class Cloud {
   const bool has_intensity_;
   const PointColors colors_;
   const CloudTiles tiles_;
-  VoxelStates states_;
   std::optional<SolidPoints> solid_;
 };
 

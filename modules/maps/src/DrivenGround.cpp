@@ -44,12 +44,12 @@ int floorOf(double value) {
 }
 
 /** Poses of a track about half a voxel apart. */
-std::vector<Pose3> thinned(const MapTrack& track, double resolution_m) {
-  std::vector<Pose3> poses;
+std::vector<StampedPose> thinned(const MapTrack& track, double resolution_m) {
+  std::vector<StampedPose> poses;
   for (const StampedPose& pose : track.poses)
-    if (poses.empty() ||
-        (pose.pose.translation() - poses.back().translation()).norm() >= kSameVoxels * resolution_m)
-      poses.push_back(pose.pose);
+    if (poses.empty() || (pose.pose.translation() - poses.back().pose.translation()).norm() >=
+                             kSameVoxels * resolution_m)
+      poses.push_back(pose);
   return poses;
 }
 
@@ -66,9 +66,11 @@ class Stamp {
         body_(body),
         above_ground_(height_above_ground),
         voxel_m_(resolution_m),
+        body_voxels_(voxelsIn(body.height_m, resolution_m)),
         driven_(driven) {}
 
-  void at(const Pose3& world_T_base) {
+  void at(const StampedPose& pose) {
+    const Pose3& world_T_base = pose.pose;
     const Vector3d up = world_T_base.linear().col(2),
                    foot = world_T_base.translation() - above_ground_ * up;
     const double radius = body_.radius_m + kAround;
@@ -81,25 +83,36 @@ class Stamp {
         if (beside.norm() > radius) continue;
         constexpr double kUpright = 0.5;  // steeper robots lie
         const double slope = up.z() < kUpright ? 0 : -up.head<2>().dot(beside) / up.z();
-        column(Column(occupied_, x, y), foot.z() + slope, beside.norm() <= body_.radius_m);
+        column(Column(occupied_, x, y), foot.z() + slope, beside.norm(), pose.stamp);
       }
   }
 
  private:
-  void column(const Column& column, double ground_m, bool under_body) {
+  void column(const Column& column, double ground_m, double beside_m, double stamp) {
+    const bool under_body = beside_m <= body_.radius_m;
     const auto seen = column.highest(floorOf((ground_m + kUneven) / voxel_m_),
                                      floorOf((ground_m - kUneven) / voxel_m_));
     if (!seen && !under_body) return;
     const int top = seen.value_or(floorOf(ground_m / voxel_m_));
     for (int z = top; z > top - kThickness; --z) set(column.at(z), driven_.ground);
     if (!under_body) return;
-    for (int z = top + 1; z <= floorOf((ground_m + body_.height_m) / voxel_m_); ++z)
-      set(column.at(z), driven_.entered);
+    if (isInGrid(column.at(top))) driven_.floor.push_back(column.at(top));
+    for (int z = top + 1; z <= top + body_voxels_; ++z)
+      enter(column.at(z), beside_m <= body_.radius_m / 2, stamp);
+  }
+
+  void enter(const VoxelIndex& voxel, bool by_its_middle, double stamp) {
+    if (!isInGrid(voxel)) return;
+    set(voxel, driven_.entered);
+    if (!by_its_middle) return;
+    double& last = driven_.crossed.try_emplace(voxelKey(voxel), stamp).first->second;
+    last = std::max(last, stamp);
   }
 
   const VoxelSetBlocks& occupied_;
   const RobotBody body_;
   const double above_ground_, voxel_m_;
+  const int body_voxels_;
   DrivenGround& driven_;
 };
 
@@ -108,9 +121,9 @@ class Stamp {
 std::optional<double> heightAboveGround(const MapTrack& track, const VoxelSetBlocks& occupied,
                                         double resolution_m) {
   std::vector<double> heights;
-  const std::vector<Pose3> poses = thinned(track, resolution_m);
-  for (const Pose3& pose : poses) {
-    const Vector3d base = pose.translation() / resolution_m;
+  const std::vector<StampedPose> poses = thinned(track, resolution_m);
+  for (const StampedPose& pose : poses) {
+    const Vector3d base = pose.pose.translation() / resolution_m;
     const VoxelIndex voxel = voxelAt(base);
     const auto found = Column(occupied, voxel.x(), voxel.y())
                            .highest(floorOf(base.z() + kAboveBase / resolution_m),
@@ -131,7 +144,7 @@ DrivenGround drivenGround(const std::vector<MapTrack>& tracks, const VoxelSetBlo
     const auto height = heightAboveGround(track, occupied, resolution_m);
     if (!height) continue;
     Stamp stamp(occupied, body, *height, resolution_m, driven);
-    for (const Pose3& pose : thinned(track, resolution_m)) stamp.at(pose);
+    for (const StampedPose& pose : thinned(track, resolution_m)) stamp.at(pose);
   }
   return driven;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "VoxelBlock.h"
@@ -19,6 +20,11 @@ struct RobotBody {
 struct DrivenGround {
   VoxelSetBlocks ground;   ///< solid: occupied
   VoxelSetBlocks entered;  ///< by the robot's body
+  /** When a robot's middle, half as wide as its body, was last in a voxel; stamps by voxelKey(). */
+  std::unordered_map<uint64_t, double> crossed;
+  /** The highest voxel of the ground under the body, in the order of the ways; some more than once.
+   */
+  std::vector<VoxelIndex> floor;
 };
 
 /** How high a robot's base is above the ground: the median over its way of the height above the

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "MapPoints.h"
-#include "lamp/core/RawlogFile.h"
+#include "lamp/core/MrptFile.h"
 #include "lamp/core/ScanObservation.h"
 
 namespace lamp {
@@ -48,7 +48,7 @@ mrpt::obs::CObservationRobotPose odometryOf(const KeyNodePacket& packet, const s
 void writeKeyNodeRawlog(const std::string& path, const std::string& robot,
                         const std::vector<KeyNodePacket>& packets) {
   for (const KeyNodePacket& packet : packets) checkPacket(packet, robot);
-  writeRawlog(path, [&](const RawlogSink& sink) {
+  writeMrptFile(path, [&](const MrptSink& sink) {
     for (const KeyNodePacket* packet : inStampOrder(packets)) {
       sink(odometryOf(*packet, robot));
       if (!packet->scan) continue;

@@ -63,27 +63,33 @@ bool OccupancyMap::isSame(const Entry& a, const Entry& b) const {
   return a.scan == b.scan && a.time == b.time && a.new_place == b.new_place && stayed;
 }
 
-void OccupancyMap::update(const ComponentMap& map) {
-  removed_ = inserted_ = rays_out_of_bounds_ = 0;
-  const Clock clock = clockFor(map);
-  if (!clock_ || !(*clock_ == clock)) {
-    entries_.clear();
-    counts_.clear();
-    clock_ = clock;
-  }
-  exchange(entriesOf(map, clock));
+bool OccupancyMap::forgetAll() {
+  const bool knew_something = !entries_.empty();
+  entries_.clear();
+  counts_.clear();
+  return knew_something;
 }
 
-void OccupancyMap::exchange(const Entries& wanted) {
+bool OccupancyMap::update(const ComponentMap& map) {
+  const Clock clock = clockFor(map);
+  bool changed = false;
+  if (!clock_ || !(*clock_ == clock)) {
+    changed = forgetAll();
+    clock_ = clock;
+  }
+  return exchange(entriesOf(map, clock)) || changed;
+}
+
+bool OccupancyMap::exchange(const Entries& wanted) {
   std::vector<Entries::iterator> old;
   for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
     const auto same = wanted.find(entry->first);
     if (same == wanted.end() || !isSame(entry->second, same->second)) old.push_back(entry);
   }
   // Where more goes than stays it is less work to begin anew.
+  bool changed = false;
   if (2 * old.size() > entries_.size()) {
-    entries_.clear();
-    counts_.clear();
+    changed = forgetAll();
     old.clear();
   }
   std::vector<const Entry*> out, in;
@@ -98,6 +104,7 @@ void OccupancyMap::exchange(const Entries& wanted) {
   rays_out_of_bounds_ = 0;
   castInBatches(in, [&](const std::vector<ScanEvidence>& scans) { counts_.add(scans); });
   inserted_ = in.size();
+  return changed || removed_ + inserted_ > 0;
 }
 
 template <class Take>

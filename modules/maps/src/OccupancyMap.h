@@ -22,10 +22,12 @@ class OccupancyMap {
   explicit OccupancyMap(const Options& options) : options_(options) {}
 
   /** Makes the counts those of the map's key nodes. In parallel over scans and blocks; any number
-   * of threads gives the same counts. */
-  void update(const ComponentMap& map);
+   * of threads gives the same counts. \return whether they were others before. */
+  bool update(const ComponentMap& map);
 
   const OccupancyCounts& counts() const { return counts_; }
+  /** A stamp in the unit of the counts' times, not rounded. */
+  double timeOf(double stamp) const { return (stamp - clock_->epoch) / clock_->second; }
   /** Scans of the last update that were taken out, and put in. */
   size_t removed() const { return removed_; }
   size_t inserted() const { return inserted_; }
@@ -53,7 +55,8 @@ class OccupancyMap {
   static Clock clockFor(const ComponentMap& map);
   Entries entriesOf(const ComponentMap& map, const Clock& clock) const;
   bool isSame(const Entry& a, const Entry& b) const;
-  void exchange(const Entries& wanted);
+  bool exchange(const Entries& wanted);
+  bool forgetAll();
   template <class Take>
   void castInBatches(const std::vector<const Entry*>& entries, Take&& take);
 

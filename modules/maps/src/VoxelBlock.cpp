@@ -1,5 +1,8 @@
 #include "VoxelBlock.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lamp {
 
 namespace {
@@ -33,6 +36,11 @@ BlockKey blockOf(const VoxelIndex& voxel) {
 VoxelIndex firstVoxelOf(BlockKey block) {
   const auto along = [](uint64_t bits) { return gather(bits) * kBlockSide - kGridReach; };
   return {along(block), along(block >> 1), along(block >> 2)};
+}
+
+int voxelsIn(double length_m, double resolution_m) {
+  constexpr double kRounding = 1e-9;
+  return std::max(1, static_cast<int>(std::ceil(length_m / resolution_m - kRounding)));
 }
 
 }  // namespace lamp

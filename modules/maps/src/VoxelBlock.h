@@ -28,6 +28,9 @@ VoxelIndex firstVoxelOf(BlockKey block);
 inline VoxelIndex voxelAt(const Eigen::Vector3d& point_in_voxels) {
   return point_in_voxels.array().floor().cast<int>();
 }
+/** Voxels that a length takes, at least one; 0.8 m are four voxels of 0.2 m, whatever the rounding.
+ */
+int voxelsIn(double length_m, double resolution_m);
 inline bool isInGrid(const VoxelIndex& voxel) {
   return (voxel.array() >= -kGridReach).all() && (voxel.array() < kGridReach).all();
 }
@@ -41,6 +44,11 @@ inline size_t placeInBlock(const VoxelIndex& voxel) {
 inline VoxelIndex fromPlaceInBlock(size_t place) {
   const auto i = static_cast<int>(place);
   return {i % kBlockSide, i / kBlockSide % kBlockSide, i / kBlockSide / kBlockSide};
+}
+
+/** Names a voxel of the grid. */
+inline uint64_t voxelKey(const VoxelIndex& voxel) {
+  return blockOf(voxel) * kBlockVoxels + placeInBlock(voxel);
 }
 
 /** One bit for each voxel of a block, by its place. */

@@ -195,4 +195,9 @@ VoxelStates classify(const OccupancyCounts& counts, const VoxelSetBlocks& occupi
   return states;
 }
 
+VoxelLookup::VoxelLookup(const VoxelStates& states) {
+  blocks_.reserve(states.size());
+  for (const auto& [key, block] : states) blocks_[key] = &block;
+}
+
 }  // namespace lamp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -24,5 +25,23 @@ VoxelSetBlocks occupiedVoxels(const OccupancyCounts& counts);
  *  \param entered voxels that a robot's body was in: free unless occupied. */
 VoxelStates classify(const OccupancyCounts& counts, const VoxelSetBlocks& occupied,
                      const VoxelSetBlocks& entered);
+
+/** Looks voxels up. */
+class VoxelLookup {
+ public:
+  /** \param states must outlive this. */
+  explicit VoxelLookup(const VoxelStates& states);
+
+  VoxelState at(const VoxelIndex& voxel) const {
+    if (!isInGrid(voxel)) return 0;
+    const auto found = blocks_.find(blockOf(voxel));
+    return found == blocks_.end() ? VoxelState{0} : (*found->second)[placeInBlock(voxel)];
+  }
+  bool isOccupied(const VoxelIndex& voxel) const { return at(voxel) > 0; }
+  bool isFree(const VoxelIndex& voxel) const { return at(voxel) < 0; }
+
+ private:
+  std::unordered_map<BlockKey, const StateBlock*> blocks_;
+};
 
 }  // namespace lamp

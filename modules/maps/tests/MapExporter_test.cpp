@@ -14,11 +14,12 @@ namespace {
 TEST(MapExporter, ClassesAreMadeByNameAndReadTheirOptions) {
   registerAllClasses_lamp_maps();
   EXPECT_THAT(stageClasses(CLASS_ID(MapExporter)),
-              testing::IsSupersetOf({"OctoMap", "Pcd", "Picture", "Ply"}));
+              testing::IsSupersetOf({"OccupancyGrid", "OctoMap", "Pcd", "Picture", "Ply", "Scene3d",
+                                     "SimpleMap", "Traversability"}));
   Faults faults;
   const Ini ini = Ini::fromText(
       "[lamp::Ply]\nvoxel_m = 0.5\n[lamp::Pcd]\nvoxel_m = 0\n"
-      "[lamp::OctoMap]\nresolution_m = 0.1\n[lamp::Picture]\nsize_px = 400\n",
+      "[lamp::Scene3d]\nvoxel_m = 0.1\n[lamp::Picture]\nsize_px = 400\n",
       "test.ini", faults);
   TestMap test;
   test.add(0, Pose3::Identity(), makeScan({{1, 1, 1}}));
@@ -39,8 +40,8 @@ TEST(MapExporter, OptionsOutOfRangeAreFaults) {
   registerAllClasses_lamp_maps();
   Faults faults;
   const Ini ini =
-      Ini::fromText("[lamp::OctoMap]\nprob_hit = 1.0\nresolution_m = 0\n", "test.ini", faults);
-  makeStage<MapExporter>(StageName::parse("OctoMap"), "exporter", "test.ini:1", ini, faults);
+      Ini::fromText("[lamp::Picture]\nprob_hit = 1.0\nsize_px = 0\n", "test.ini", faults);
+  makeStage<MapExporter>(StageName::parse("Picture"), "exporter", "test.ini:1", ini, faults);
   EXPECT_EQ(faults.list().size(), 2u);
 }
 

@@ -10,8 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::unique_ptr<octomap::OcTree> mapOf(const TestMap& test, const OctoMapOptions& options = {}) {
-  return readLogOdds(OctoMap(options).exportMap(test.map, freshFolder() + "/map").at(0));
+std::unique_ptr<octomap::OcTree> mapOf(const TestMap& test, const OccupancyOptions& options = {}) {
+  ComponentMap map = test.map;
+  map.occupancy = std::make_shared<Occupancy>(options);
+  return readLogOdds(OctoMap().exportMap(map, freshFolder() + "/map").at(0));
 }
 
 /** Cells at points of a surface. */
@@ -202,9 +204,36 @@ TEST(OccupancyModel, TheGroundUnderTheWayIsKnownAndTheBodysSpaceFree) {
     }
   EXPECT_EQ(cellAt(*tree, 0.1, 0.9, 0.05), Cell::kUnknown);
 
-  OctoMapOptions seen_only;
+  OccupancyOptions seen_only;
   seen_only.driven_ground = false;
   EXPECT_EQ(cellAt(*mapOf(test, seen_only), 0.1, 0.5, 0.05), Cell::kUnknown);
+}
+
+/** A box stands on the way as one robot comes by, at the time of its key node. */
+void placeBoxOnWay(double stamp, TestMap& test) {
+  std::vector<Eigen::Vector3f> box;
+  for (float y = -0.3f; y < 0.3f; y += 0.05f)
+    for (float z = 0.06f; z < 0.35f; z += 0.05f) box.push_back({1.1f, y, z});
+  test.add(1, Pose3(Eigen::Translation3d(0, 0, 0.6)), makeScan(box));
+  test.map.key_nodes.back().stamp = stamp;
+}
+
+TEST(OccupancyModel, WhatStoodWhereARobotDroveLaterIsGone) {
+  TestMap test;
+  fillStripedFloor(test);  // at x = 1.1 the robot is at the time 1.1
+  test.map.key_nodes.back().stamp = -10;
+  placeBoxOnWay(-5, test);
+  const auto tree = mapOf(test);
+  EXPECT_EQ(cellAt(*tree, 1.1, 0.1, 0.7), Cell::kFree);
+}
+
+TEST(OccupancyModel, WhatStandsWhereARobotDroveBeforeIsThere) {
+  TestMap test;
+  fillStripedFloor(test);
+  test.map.key_nodes.back().stamp = -10;
+  placeBoxOnWay(20, test);
+  const auto tree = mapOf(test);
+  EXPECT_EQ(cellAt(*tree, 1.1, 0.1, 0.7), Cell::kOccupied);
 }
 
 TEST(OccupancyModel, ARobotThatSeesNoGroundGetsNone) {

@@ -18,8 +18,9 @@ std::vector<Eigen::Vector3f> wall(float x) {
   return points;
 }
 
-std::vector<std::string> write(const ComponentMap& map, const OctoMapOptions& options = {}) {
-  return OctoMap(options).exportMap(map, freshFolder() + "/map");
+std::vector<std::string> write(ComponentMap map, const OccupancyOptions& options = {}) {
+  map.occupancy = std::make_shared<Occupancy>(options);
+  return OctoMap().exportMap(map, freshFolder() + "/map");
 }
 
 TEST(OctoMap, TheOffsetFromTheWorldIsACommentThatOctoMapPassesOver) {
@@ -80,7 +81,7 @@ TEST(OctoMap, CarvesFromTheOriginOfTheSensorThatSawThePoint) {
 
 TEST(OctoMap, CutsLongRaysWithoutAnOccupiedEnd) {
   TestMap test;
-  OctoMapOptions options;
+  OccupancyOptions options;
   options.max_range_m = 3;
   test.add(0, Pose3(Eigen::Translation3d(0.1, 0.1, 0.1)), makeScan({{8, 0, 0}, {0, 2, 0}}));
   const auto tree = readLogOdds(write(test.map, options)[0]);
@@ -127,7 +128,7 @@ TEST(OctoMap, EmptyMapsGiveFilesThatOpen) {
 TEST(OctoMap, LeavesOutPointsThatAreNotFiniteOrOutOfBounds) {
   TestMap test;
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  OctoMapOptions options;
+  OccupancyOptions options;
   options.max_range_m = 1e6;
   test.add(0, Pose3::Identity(), makeScan({{nan, 0, 0}, {9e4f, 0, 0}, {2.1f, 0.1f, 0.1f}}));
   const auto tree = readLogOdds(write(test.map, options)[0]);

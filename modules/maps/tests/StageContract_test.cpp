@@ -19,12 +19,15 @@ std::vector<std::string> exporters() {
   return stageClasses(CLASS_ID(MapExporter));
 }
 
-/** Two key nodes of two robots between walls, with tracks and a loop closure. */
+/** Two key nodes of two robots between walls on a floor, with tracks and a loop closure. */
 void furnish(TestMap& test) {
   std::vector<Eigen::Vector3f> walls;
-  for (int i = 0; i < 60; ++i)
+  for (int i = 0; i < 60; ++i) {
+    const float x = 0.1f * static_cast<float>(i) - 3;
     for (const float y : {-2.0f, 2.0f})
-      walls.emplace_back(0.1f * static_cast<float>(i) - 3, y, 0.05f * static_cast<float>(i % 20));
+      walls.emplace_back(x, y, 0.05f * static_cast<float>(i % 20));
+    for (float y = -1; y < 1; y += 0.1f) walls.emplace_back(x, y, -0.1f);
+  }
   test.add(0, planarPose(0, 0, 0), makeScan(walls, {0, 0, 0.3}));
   test.add(1, planarPose(2, 0.5, 0.3), makeScan(walls, {0.1, 0, 0.3}));
   test.addTrack(0, {{0, 0}, {1, 0}});
@@ -113,6 +116,18 @@ TEST_P(AnyMapExporter, LeavesTheScansAsTheyAre) {
   EXPECT_EQ(before.points, after.points);
   EXPECT_EQ(before.sensor, after.sensor);
   EXPECT_EQ(before.intensity, after.intensity);
+}
+
+TEST_P(AnyMapExporter, SaysOfEachFileThatTheDiskIsFull) {
+  TestMap test;
+  furnish(test);
+  for (const auto& [name, bytes] : exported(test.map)) {
+    const std::string folder = freshFolder();
+    std::filesystem::create_symlink("/dev/full", folder + "/" + name);
+    const std::string error = errorOf([&] { exporter->exportMap(test.map, folder + "/map"); });
+    EXPECT_NE(error.find(folder + "/" + name), std::string::npos) << error;
+    EXPECT_NE(error.find("No space left"), std::string::npos) << error;
+  }
 }
 
 TEST_P(AnyMapExporter, NamesAFolderThatIsNotThereAndLeavesNothing) {

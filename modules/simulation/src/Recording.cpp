@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-#include "lamp/core/RawlogFile.h"
+#include "lamp/core/MrptFile.h"
 #include "lamp/core/ScanObservation.h"
 #include "lamp/simulation/SensorObservations.h"
 #include "lamp/simulation/VelodyneObservation.h"
@@ -26,7 +26,7 @@ class Timeline {
   }
   /** Hands over, in time order, what is older than `stamp`. Of equal stamps the first added goes
    * first. */
-  void flushBefore(double stamp, const RawlogSink& sink) {
+  void flushBefore(double stamp, const MrptSink& sink) {
     const auto earlier = [](const Entry& a, const Entry& b) { return a.stamp < b.stamp; };
     std::stable_sort(entries_.begin(), entries_.end(), earlier);
     const auto end =
@@ -34,7 +34,7 @@ class Timeline {
     for (auto entry = entries_.begin(); entry != end; ++entry) sink(*entry->observation);
     entries_.erase(entries_.begin(), end);
   }
-  void flush(const RawlogSink& sink) { flushBefore(std::numeric_limits<double>::infinity(), sink); }
+  void flush(const MrptSink& sink) { flushBefore(std::numeric_limits<double>::infinity(), sink); }
 
  private:
   struct Entry {
@@ -95,7 +95,7 @@ void writeKeyedRecording(const std::string& path, const MissionRobot& robot,
       timeline.add(reading->stamp, imuObservation(*reading, robot.name));
   }
   addRadioAndArtifacts(robot, mission, config, timeline);
-  writeRawlog(path, [&](const RawlogSink& sink) { timeline.flush(sink); });
+  writeMrptFile(path, [&](const MrptSink& sink) { timeline.flush(sink); });
 }
 
 void writeRawRecording(const std::string& path, const MissionRobot& robot, const Mission& mission,
@@ -111,7 +111,7 @@ void writeRawRecording(const std::string& path, const MissionRobot& robot, const
   addRadioAndArtifacts(robot, mission, config, timeline);
 
   const std::vector<double> stamps = robot.scanStamps();
-  writeRawlog(path, [&](const RawlogSink& sink) {
+  writeMrptFile(path, [&](const MrptSink& sink) {
     for (size_t begin = 0; begin < stamps.size(); begin += kChunk) {
       const size_t end = std::min(begin + kChunk, stamps.size());
       std::vector<std::vector<std::shared_ptr<mrpt::obs::CObservationVelodyneScan>>> chunk(end -

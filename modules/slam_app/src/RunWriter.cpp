@@ -120,9 +120,10 @@ void writeMaps(const RunFolder& folder, const RunResult& result, const MapExport
                const WriteProgress& progress, Steps& steps) {
   size_t written = 0;
   for (size_t rank = 0; rank < components.size(); ++rank) {
-    const ComponentMap map = makeMap(result, components[rank]);
-    for (const auto& exporter : exporters) {
-      progress(static_cast<double>(written++) / (components.size() * exporters.size()),
+    ComponentMap map = makeMap(result, components[rank]);
+    map.occupancy = exporters.occupancy;
+    for (const auto& exporter : exporters.stages) {
+      progress(static_cast<double>(written++) / (components.size() * exporters.stages.size()),
                "writing map " + std::to_string(rank + 1) + " of " +
                    std::to_string(components.size()) + ": " + exporter->getLoggerName());
       const CTimeLoggerEntry timing(timer, ("maps." + exporter->getLoggerName()).c_str());

@@ -158,6 +158,7 @@ SlamConfig::SlamConfig(Ini ini, Faults faults) : ini_(std::move(ini)) {
   readOptions(ini_.find("registration"), registration, faults);
   readOptions(ini_.find("base_station"), base_station, faults);
   readOptions(ini_.find("refinement"), refinement, faults);
+  readOptions(ini_.find("occupancy"), occupancy, faults);
   readRobots(faults);
   readBeacons(faults);
   checkGate(faults);
@@ -245,9 +246,9 @@ std::vector<std::shared_ptr<Stage>> SlamConfig::make(const StageKind& kind) cons
 
 /** Sections that nothing reads are faults; options of stages that take no part are checked too. */
 void SlamConfig::checkSections(Faults& faults) const {
-  static const std::vector<std::string> kSections = {"plugins",      "run",          "input",
-                                                     "pipeline",     "frontend",     "gate",
-                                                     "registration", "base_station", "refinement"};
+  static const std::vector<std::string> kSections = {
+      "plugins", "run",          "input",        "pipeline",   "frontend",
+      "gate",    "registration", "base_station", "refinement", "occupancy"};
   for (const Ini::Section& section : ini_.sections()) {
     const std::string& name = section.name;
     const bool known = name.rfind(kRobotPrefix, 0) == 0 || name.rfind(kBeaconPrefix, 0) == 0 ||
@@ -287,6 +288,10 @@ BaseStationSetup SlamConfig::makeBaseStationSetup() const {
           {robots, beacons}};
 }
 
+MapExporters SlamConfig::makeMapExporters() const {
+  return {make<MapExporter>(), std::make_shared<Occupancy>(occupancy)};
+}
+
 std::string SlamConfig::text() const {
   SlamConfig copy = *this;  // visit() takes options that it may change
   std::string text =
@@ -295,7 +300,8 @@ std::string SlamConfig::text() const {
       writeOptions("frontend", copy.frontend) + "\n" + writeOptions("gate", copy.gate) + "\n" +
       writeOptions("registration", copy.registration) + "\n" +
       writeOptions("base_station", copy.base_station) + "\n" +
-      writeOptions("refinement", copy.refinement);
+      writeOptions("refinement", copy.refinement) + "\n" +
+      writeOptions("occupancy", copy.occupancy);
   for (RobotOptions& robot : copy.robots)
     text += "\n" + writeOptions(kRobotPrefix + robot.name, robot);
   for (BeaconOptions& beacon : copy.beacons)
@@ -322,7 +328,8 @@ std::string describeParameters() {
           table("frontend", FrontEndOptions{}) + table("gate", GateOptions{}) +
           table("registration", RegistrationOptions{}) +
           table("base_station", BaseStationOptions{}) + table("refinement", RefinementOptions{}) +
-          table("robot.NAME", RobotOptions{}) + table("beacon.NAME", BeaconOptions{});
+          table("occupancy", OccupancyOptions{}) + table("robot.NAME", RobotOptions{}) +
+          table("beacon.NAME", BeaconOptions{});
   for (const StageKind& kind : stageKinds()) {
     text += "## [pipeline] " + std::string(kind.key) + "\n\n";
     for (const std::string& name : stageClasses(kind.base)) {

@@ -161,7 +161,7 @@ SlamRun::Outcome SlamRun::run() {
   BaseStation base_station(local_.makeBaseStationSetup(), timer);
   base_station.setMinLoggingLevel(getMinLoggingLevel());
 
-  const MapExporters exporters = config_.make<MapExporter>();
+  const MapExporters exporters = config_.makeMapExporters();
   FrontEndTeam team(local_, queue, measureApertures(local_, interrupted_));
   {
     Progress progress;

@@ -9,7 +9,7 @@
 
 #include "TemporaryFolder.h"
 #include "TestTeam.h"
-#include "lamp/core/RawlogFile.h"
+#include "lamp/core/MrptFile.h"
 
 namespace lamp {
 namespace {
@@ -41,7 +41,7 @@ mrpt::obs::CObservation2DRangeScan scanAt(double yaw) {
 /** A robot that turns on the spot, in a rawlog; its laser's field of view is recorded as this. */
 SlamConfig turningRobot(double recorded_deg) {
   const std::string path = freshFolder() + "/robot.rawlog";
-  writeRawlog(path, [&](const RawlogSink& sink) {
+  writeMrptFile(path, [&](const MrptSink& sink) {
     for (int i = 0; i < 150; ++i) {
       const double yaw = 5 * i * kDegree;
       mrpt::obs::CObservationOdometry odometry;

@@ -29,7 +29,7 @@ struct WrittenRun {
     Team().sendTo(station.base);
     const RunFolder folder = RunFolder::create(root);
     not_written = writeRun(folder, {station.config, robots, station.base, {}, {}},
-                           station.config.make<MapExporter>(), station.timer,
+                           station.config.makeMapExporters(), station.timer,
                            [](double, const std::string&) {});
   }
   bool has(const std::string& file) const { return std::filesystem::exists(root + "/" + file); }
@@ -65,9 +65,9 @@ TEST(RunWriter, AFileThatCannotBeWrittenTakesNothingElseWithIt) {
   robots.add("husky");
   robots.add("spot");
   Team().sendTo(station.base);
-  const auto failures = writeRun(folder, {station.config, robots, station.base, {}, {}},
-                                 station.config.make<MapExporter>(), station.timer,
-                                 [](double, const std::string&) {});
+  const auto failures =
+      writeRun(folder, {station.config, robots, station.base, {}, {}},
+               station.config.makeMapExporters(), station.timer, [](double, const std::string&) {});
   EXPECT_THAT(failures, ElementsAre(HasSubstr("graph.g2o'"), HasSubstr("husky.tum'")));
   for (const char* file :
        {"graph.graph", "trajectories/husky.keyframes.tum", "trajectories/spot.tum", "summary.json"})

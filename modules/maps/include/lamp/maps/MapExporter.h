@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "lamp/core/KeyedScan.h"
 #include "lamp/core/PoseGraph.h"
 #include "lamp/core/Stage.h"
+#include "lamp/maps/Occupancy.h"
 
 namespace lamp {
 
@@ -43,6 +45,8 @@ struct ComponentMap {
   std::vector<MapTrack> tracks;       ///< in RobotId order
   std::vector<MapLoop> loops;
   const RobotTable* robots = nullptr;
+  /** Never null; that of a run is one for all of its maps. */
+  std::shared_ptr<Occupancy> occupancy = std::make_shared<Occupancy>();
 };
 
 /** Turns one component into files. */
@@ -61,7 +65,7 @@ struct Color {
 };
 Color robotColor(RobotId robot);
 
-/** Registers MapExporter, Ply, Pcd, OctoMap and Picture. */
+/** Registers MapExporter and all exporters. */
 void registerAllClasses_lamp_maps();
 
 }  // namespace lamp

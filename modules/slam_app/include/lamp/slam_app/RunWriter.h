@@ -36,8 +36,6 @@ struct RunResult {
 /** Called before each long step with the share of the writing that is done and what comes next. */
 using WriteProgress = std::function<void(double share, const std::string& step)>;
 
-using MapExporters = std::vector<std::shared_ptr<MapExporter>>;
-
 /** Writes the maps of the largest component while the run goes on.
  * \return what was not written and why. */
 std::vector<std::string> writeMapSoFar(const RunFolder& folder, const RunResult& result,

@@ -10,6 +10,7 @@
 #include "lamp/frontend/FrontEnd.h"
 #include "lamp/frontend/GateCalibration.h"
 #include "lamp/input/RobotOptions.h"
+#include "lamp/maps/MapExporter.h"
 #include "lamp/refinement/RefinementOptions.h"
 #include "lamp/registration/LoopClosureComputation.h"
 #include "lamp/registration/PreparedScanStore.h"
@@ -50,6 +51,12 @@ struct RunOptions {
   void visit(OptionVisitor& v);
 };
 
+/** The exporters of a run, and the occupancy that they share. */
+struct MapExporters {
+  std::vector<std::shared_ptr<MapExporter>> stages;
+  std::shared_ptr<Occupancy> occupancy;
+};
+
 /** An experiment: everything that an ini file and the command line say. */
 class SlamConfig {
  public:
@@ -73,6 +80,7 @@ class SlamConfig {
   RegistrationOptions registration;
   BaseStationOptions base_station;
   RefinementOptions refinement;
+  OccupancyOptions occupancy;
   std::vector<RobotOptions> robots;    ///< in the order of the ini
   std::vector<BeaconOptions> beacons;  ///< in the order of the ini
 
@@ -92,6 +100,7 @@ class SlamConfig {
   }
   LoopClosureComputation makeLoopClosureComputation() const;
   BaseStationSetup makeBaseStationSetup() const;
+  MapExporters makeMapExporters() const;
 
   /** The effective ini: complete, and running it again gives the same run. */
   std::string text() const;

@@ -19,7 +19,8 @@ struct PipelineOptions {
                                      "BothDirections"};
   std::vector<std::string> outlier_rejection{"OdometryGate", "ChanceAgreement", "RobotFrames"};
   std::vector<std::string> optimizer{"Gnc"};
-  std::vector<std::string> exporters{"Ply", "Pcd", "OctoMap", "Picture"};
+  std::vector<std::string> exporters{
+      "Ply", "Pcd", "OctoMap", "OccupancyGrid", "Traversability", "Picture", "Scene3d"};
   bool inter_robot_loops = true;
 
   void visit(OptionVisitor& v);

@@ -1,4 +1,4 @@
-#include "lamp/core/RawlogFile.h"
+#include "lamp/core/MrptFile.h"
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
@@ -8,7 +8,7 @@
 
 namespace lamp {
 
-void writeRawlog(const std::string& path, const std::function<void(const RawlogSink&)>& write) {
+void writeMrptFile(const std::string& path, const std::function<void(const MrptSink&)>& write) {
   writeAtomically(path, [&](const std::string& temporary) {
     GzFile file(temporary, path);
     write([&](const mrpt::serialization::CSerializable& object) {
