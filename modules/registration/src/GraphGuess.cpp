@@ -17,8 +17,11 @@ std::vector<Guess> graphGuesses(const PoseGraph& graph,
   std::vector<Guess> result(candidates.size());
   std::map<KeyNodeId, std::vector<size_t>> by_newer;
   for (size_t i = 0; i < candidates.size(); ++i) {
-    result[i] = graphGuess(graph, candidates[i]);
-    by_newer[candidates[i].to].push_back(i);
+    const LoopClosureCandidate& candidate = candidates[i];
+    result[i] = graphGuess(graph, candidate);
+    // Loops that wait for a verdict may connect robots whose poses cannot be compared yet.
+    if (graph.shareFrame(candidate.from.robot, candidate.to.robot))
+      by_newer[candidate.to].push_back(i);
   }
   for (const auto& [newer, places] : by_newer) {
     std::vector<KeyNodeId> older;

@@ -14,7 +14,7 @@ namespace lamp {
  * what the generator has recognised. */
 Guess graphGuess(const PoseGraph& graph, const LoopClosureCandidate& candidate);
 
-/** The same for many, with the graph's covariance where the two are connected. */
+/** The same for many, with the graph's covariance where the two robots share a frame. */
 std::vector<Guess> graphGuesses(const PoseGraph& graph,
                                 const std::vector<LoopClosureCandidate>& candidates,
                                 const UncertaintyQuery& uncertainty);
