@@ -49,9 +49,7 @@ class Cloud {
         colors_(map, options.color),
         tiles_(map, sideOf(options), options.normals ? kMarginM : 0) {
     if (options.moving) return;
-    const OccupancyOptions& grid = map.occupancy->options();
-    solid_.emplace(map.occupancy->of(map).states(),
-                   SolidPoints::Grid{grid.resolution_m, grid.max_range_m});
+    solid_.emplace(map.occupancy->of(map).states(), map.occupancy->options());
   }
 
   const CloudTiles& tiles() const { return tiles_; }
@@ -84,7 +82,7 @@ class Cloud {
       appendBytes(points[i].position, bytes);
       format_.append_color(colors_.of(points[i]), bytes);
       if (options_.normals) appendBytes(normals[i], bytes);
-      if (has_intensity_) appendBytes(intensityOf(points[i]), bytes);
+      if (has_intensity_) appendBytes(intensityOf(points[i], map_), bytes);
       visit(bytes, points[i].position);
     }
   }
@@ -100,12 +98,6 @@ class Cloud {
   }
 
  private:
-  float intensityOf(const CloudPoint& point) const {
-    const Scan& scan = *map_.key_nodes[point.key_node].scan;
-    return scan.hasIntensity() ? scan.intensity[point.index]
-                               : std::numeric_limits<float>::quiet_NaN();
-  }
-
   const ComponentMap& map_;
   const CloudOptions& options_;
   const CloudFormat& format_;

@@ -53,6 +53,12 @@ Eigen::Vector3d sensorOf(const CloudPoint& point, const ComponentMap& map) {
   return key_node.world_T_base * scan.sensors[scan.sensor[point.index]].position;
 }
 
+float intensityOf(const CloudPoint& point, const ComponentMap& map) {
+  const Scan& scan = *map.key_nodes[point.key_node].scan;
+  return scan.hasIntensity() ? scan.intensity[point.index]
+                             : std::numeric_limits<float>::quiet_NaN();
+}
+
 void thinToMeans(std::vector<CloudPoint>& points, double voxel_m) {
   std::vector<VoxelPoint> by_voxel;
   by_voxel.reserve(points.size());

@@ -18,6 +18,9 @@ struct CloudPoint {
 /** Where the sensor was that saw a point; in the frame of the map, metres. */
 Eigen::Vector3d sensorOf(const CloudPoint& point, const ComponentMap& map);
 
+/** NaN if its scan has none. */
+float intensityOf(const CloudPoint& point, const ComponentMap& map);
+
 /** Keeps of each voxel the point nearest to the mean of those in it, the first of equals. The rest
  * stay in their order. \throws std::runtime_error if a point lies too far from the origin. */
 void thinToMeans(std::vector<CloudPoint>& points, double voxel_m);

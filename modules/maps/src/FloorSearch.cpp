@@ -144,7 +144,7 @@ int Floor::find(const VoxelIndex& voxel) const {
 int Floor::add(const FloorCell& cell) {
   const auto index = static_cast<int>(cells_.size());
   cells_.push_back(cell);
-  columns_[column(cell.voxel.x(), cell.voxel.y())].push_back(index);
+  columns_[columnKey(cell.voxel.x(), cell.voxel.y())].push_back(index);
   return index;
 }
 

@@ -39,7 +39,7 @@ class Floor {
   /** Calls `visit(cell)` for all cells of a column. */
   template <class Visit>
   void forColumn(int x, int y, Visit&& visit) const {
-    const auto found = columns_.find(column(x, y));
+    const auto found = columns_.find(columnKey(x, y));
     if (found == columns_.end()) return;
     for (const int cell : found->second) visit(cell);
   }
@@ -49,10 +49,6 @@ class Floor {
   int add(const FloorCell& cell);
 
  private:
-  static uint64_t column(int x, int y) {
-    return uint64_t{static_cast<uint32_t>(x)} << 32 | static_cast<uint32_t>(y);
-  }
-
   FloorLimits limits_;
   std::vector<FloorCell> cells_;
   std::unordered_map<uint64_t, std::vector<int>> columns_;

@@ -22,13 +22,13 @@ class GroundHeights {
  public:
   GroundHeights(const Storey& storey, double resolution_m) : voxel_m_(resolution_m) {
     for (const StoreyCell& cell : storey.cells)
-      if (cell.seen) heights_[column(cell.ground.x(), cell.ground.y())].top = cell.ground.z();
+      if (cell.seen) heights_[columnKey(cell.ground.x(), cell.ground.y())].top = cell.ground.z();
   }
 
   /** Counts the point if it is of the ground. */
   void add(const Vector3d& point) {
     const VoxelIndex voxel = voxelAt(point / voxel_m_);
-    const auto found = heights_.find(column(voxel.x(), voxel.y()));
+    const auto found = heights_.find(columnKey(voxel.x(), voxel.y()));
     if (found == heights_.end()) return;
     Height& height = found->second;
     if (voxel.z() != height.top && voxel.z() != height.top - 1) return;
@@ -38,7 +38,7 @@ class GroundHeights {
 
   /** Metres; NaN where there is no ground or no point of it. */
   double at(int x, int y) const {
-    const auto found = heights_.find(column(x, y));
+    const auto found = heights_.find(columnKey(x, y));
     return found == heights_.end() || found->second.points == 0
                ? kNan
                : found->second.sum / static_cast<double>(found->second.points);
@@ -50,9 +50,6 @@ class GroundHeights {
     double sum = 0;
     size_t points = 0;
   };
-  static uint64_t column(int x, int y) {
-    return uint64_t{static_cast<uint32_t>(x)} << 32 | static_cast<uint32_t>(y);
-  }
 
   double voxel_m_;
   std::unordered_map<uint64_t, Height> heights_;

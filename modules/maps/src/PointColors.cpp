@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "MapPoints.h"
 #include "lamp/core/Colormap.h"
@@ -11,10 +10,8 @@ namespace lamp {
 
 namespace {
 
-double intensityOf(const CloudPoint& point, const ComponentMap& map) {
-  const Scan& scan = *map.key_nodes[point.key_node].scan;
-  return scan.hasIntensity() ? scan.intensity[point.index]
-                             : std::numeric_limits<double>::quiet_NaN();
+double brightnessOf(const CloudPoint& point, const ComponentMap& map) {
+  return intensityOf(point, map);
 }
 
 double heightOf(const CloudPoint& point, const ComponentMap&) {
@@ -37,7 +34,7 @@ double quantile(std::vector<double>& values, double share) {
 
 PointColors::PointColors(const ComponentMap& map, const std::string& property) : map_(map) {
   if (property == "robot") return;
-  value_ = property == "intensity" ? intensityOf : property == "height" ? heightOf : timeOf;
+  value_ = property == "intensity" ? brightnessOf : property == "height" ? heightOf : timeOf;
   // Of every n-th point, since all have to be kept at once; without the outermost.
   constexpr size_t kStride = 17;
   constexpr double kOutermost = 0.01;

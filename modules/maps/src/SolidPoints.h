@@ -10,19 +10,14 @@ namespace lamp {
  * occupancy has taken no account, unless its voxel is free. */
 class SolidPoints {
  public:
-  struct Grid {
-    double resolution_m, max_range_m;
-  };
-  /** \param states of the grid, must outlive this. */
-  SolidPoints(const VoxelStates& states, const Grid& grid);
+  /** \param states of the occupancy with these options, must outlive this. */
+  SolidPoints(const VoxelStates& states, const OccupancyOptions& occupancy);
 
   bool isSolid(const CloudPoint& point, const ComponentMap& map) const;
 
  private:
-  VoxelState stateAt(const VoxelIndex& voxel) const;
-
-  const Grid grid_;
-  std::unordered_map<BlockKey, const StateBlock*> blocks_;
+  const OccupancyOptions occupancy_;
+  const VoxelLookup voxels_;
 };
 
 }  // namespace lamp

@@ -31,6 +31,10 @@ inline VoxelIndex voxelAt(const Eigen::Vector3d& point_in_voxels) {
 /** Voxels that a length takes, at least one; 0.8 m are four voxels of 0.2 m, whatever the rounding.
  */
 int voxelsIn(double length_m, double resolution_m);
+/** Names the column of voxels above each other. */
+inline uint64_t columnKey(int x, int y) {
+  return uint64_t{static_cast<uint32_t>(x)} << 32 | static_cast<uint32_t>(y);
+}
 inline bool isInGrid(const VoxelIndex& voxel) {
   return (voxel.array() >= -kGridReach).all() && (voxel.array() < kGridReach).all();
 }
