@@ -17,7 +17,6 @@
 #include "FrontEndTeam.h"
 #include "lamp/core/Program.h"
 #include "lamp/core/Trajectory.h"
-#include "lamp/core/VoxelSet.h"
 #include "lamp/input/RawlogSource.h"
 #include "lamp/scans/PlaceDescriptor.h"
 #include "lamp/slam_app/SlamConfig.h"
@@ -76,24 +75,16 @@ std::vector<Place> readPlaces(const SlamConfig& config, const std::string& truth
 }
 
 /** What the scans along the way up to `reach_m` before and after show, in the level frame. */
-Points localMap(const std::vector<Place>& places, size_t i, double reach_m) {
+Points localMap(const std::vector<Place>& places, size_t i, double reach_m, double radius_m) {
   const Place& here = places[i];
-  const Eigen::Matrix3d& R = here.packet.odom_T_base.linear();
-  const Pose3 level(Eigen::AngleAxisd(-std::atan2(R(1, 0), R(0, 0)), Eigen::Vector3d::UnitZ()) * R);
-  VoxelSet voxels(here.packet.planar ? 0.2 : 0.5);
-  Points points;
-  for (const Place& other : places) {
-    if (other.packet.id.robot != here.packet.id.robot ||
-        std::abs(other.travelled_m - here.travelled_m) > reach_m)
-      continue;
-    const Pose3 level_T_other =
-        level * here.packet.odom_T_base.inverse() * other.packet.odom_T_base;
-    for (const Eigen::Vector3f& point : other.packet.scan->points) {
-      const Eigen::Vector3d p = level_T_other * point.cast<double>();
-      if (p.norm() < 100 && voxels.insert(p)) points.push_back(p.cast<float>());
-    }
-  }
-  return points;
+  const Pose3 level_T_odom =
+      Pose3(levelFrame(here.packet.odom_T_base)) * here.packet.odom_T_base.inverse();
+  std::vector<PlacedScan> scans;
+  for (const Place& other : places)
+    if (other.packet.id.robot == here.packet.id.robot &&
+        std::abs(other.travelled_m - here.travelled_m) <= reach_m)
+      scans.push_back({other.packet.scan, level_T_odom * other.packet.odom_T_base});
+  return surroundings(scans, radius_m, here.packet.planar);
 }
 
 /** Scan Context (Kim, Kim, IROS 2018): the highest point of each cell of 20 rings and 60 sectors;
@@ -191,7 +182,8 @@ void run(const std::string& ini, const std::vector<std::string>& rawlogs, const 
   for (const double reach_m : {0.0, 10.0}) {
     const std::string of = reach_m > 0 ? ", local map" : ", single scan";
     std::vector<Points> maps;
-    for (size_t i = 0; i < places.size(); ++i) maps.push_back(localMap(places, i, reach_m));
+    for (size_t i = 0; i < places.size(); ++i)
+      maps.push_back(localMap(places, i, reach_m, radius_m));
     const auto spectra =
         made(maps, [&](const Points& map) { return PlaceDescriptor(map, radius_m, planar); });
     judge("polar spectrum" + of, places, limits,

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lamp/core/Csv.h"
-#include "lamp/core/VoxelSet.h"
 
 IMPLEMENTS_MRPT_OBJECT(PlaceRecognition, lamp::CandidateGenerator, lamp)
 
@@ -13,15 +12,8 @@ namespace lamp {
 
 namespace {
 
-constexpr double kVoxel_m = 0.5, kPlanarVoxel_m = 0.2;
 /** How many places are compared at all headings: those whose magnitudes are most alike. */
 constexpr size_t kShortlist = 30;
-
-/** From a key node's frame to the level one that heads the same way. */
-Eigen::Matrix3d levelFrame(const Pose3& odom_T_base) {
-  const Eigen::Matrix3d& R = odom_T_base.linear();
-  return Eigen::AngleAxisd(-std::atan2(R(1, 0), R(0, 0)), Eigen::Vector3d::UnitZ()) * R;
-}
 
 }  // namespace
 
@@ -90,20 +82,13 @@ PlaceRecognition::Place PlaceRecognition::placeAt(const Robot& robot, size_t sta
   const Station& here = robot.stations[station];
   const Eigen::Matrix3d level_R_base = levelFrame(here.odom_T_base);
   const Pose3 level_T_odom = Pose3(level_R_base) * here.odom_T_base.inverse();
-  VoxelSet voxels(here.planar ? kPlanarVoxel_m : kVoxel_m);
   const double radius = here.planar ? options.planar_radius_m : options.radius_m;
-  std::vector<Eigen::Vector3f> points;
-  for (const Station& other : robot.stations) {
-    if (std::abs(other.travelled_m - here.travelled_m) > options.neighborhood_m) continue;
-    const Eigen::Isometry3f level_T_other = (level_T_odom * other.odom_T_base).cast<float>();
-    for (const Eigen::Vector3f& point : other.scan->points) {
-      const Eigen::Vector3f p = level_T_other * point;
-      if (p.head<2>().norm() < radius && std::abs(p.z()) < radius &&
-          voxels.insert(p.cast<double>()))
-        points.push_back(p);
-    }
-  }
-  return {here.id, PlaceDescriptor(points, radius, here.planar), level_R_base, here.travelled_m};
+  std::vector<PlacedScan> scans;
+  for (const Station& other : robot.stations)
+    if (std::abs(other.travelled_m - here.travelled_m) <= options.neighborhood_m)
+      scans.push_back({other.scan, level_T_odom * other.odom_T_base});
+  const PlaceDescriptor descriptor(surroundings(scans, radius, here.planar), radius, here.planar);
+  return {here.id, descriptor, level_R_base, here.travelled_m};
 }
 
 std::vector<PlaceRecognition::Alike> PlaceRecognition::mostAlike(const Robot& robot,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <complex>
 
+#include "lamp/core/VoxelSet.h"
+
 namespace lamp {
 
 namespace {
@@ -53,6 +55,27 @@ Eigen::MatrixXf polarCounts(const std::vector<Eigen::Vector3f>& points, float ra
 }
 
 }  // namespace
+
+Eigen::Matrix3d levelFrame(const Pose3& odom_T_base) {
+  return Eigen::AngleAxisd(-yawOf(odom_T_base), Eigen::Vector3d::UnitZ()) * odom_T_base.linear();
+}
+
+std::vector<Eigen::Vector3f> surroundings(const std::vector<PlacedScan>& scans, double radius_m,
+                                          bool planar) {
+  constexpr double kVoxel_m = 0.5, kPlanarVoxel_m = 0.2;
+  VoxelSet voxels(planar ? kPlanarVoxel_m : kVoxel_m);
+  std::vector<Eigen::Vector3f> points;
+  for (const PlacedScan& placed : scans) {
+    const Eigen::Isometry3f level_T_scan = placed.target_T_scan.cast<float>();
+    for (const Eigen::Vector3f& point : placed.scan->points) {
+      const Eigen::Vector3f p = level_T_scan * point;
+      if (p.head<2>().norm() < radius_m && std::abs(p.z()) < radius_m &&
+          voxels.insert(p.cast<double>()))
+        points.push_back(p);
+    }
+  }
+  return points;
+}
 
 PlaceDescriptor::PlaceDescriptor(const std::vector<Eigen::Vector3f>& points, double radius_m,
                                  bool planar)

@@ -1,5 +1,6 @@
 #include "lamp/scans/PlanarAlignment.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -31,6 +32,27 @@ struct Block {
     return std::pair(a.shift.x(), a.shift.y()) < std::pair(b.shift.x(), b.shift.y());
   }
 };
+
+Cells cellsWithinReach(const std::vector<Eigen::Vector3f>& points) {
+  Cells cells;
+  for (const Eigen::Vector3f& point : points)
+    if (point.head<2>().norm() <= static_cast<float>(kReach_m))
+      cells.emplace_back(OccupancyPyramid::cellOf(point.x()), OccupancyPyramid::cellOf(point.y()));
+  return cells;
+}
+
+/** Of all cells of a pyramid of which some level is occupied. */
+Eigen::AlignedBox2i boxOf(const Cells& cells) {
+  constexpr int kMargin = 1 << kTop;
+  Eigen::AlignedBox2i box;
+  for (const Eigen::Vector2i& cell : cells) box.extend(cell);
+  if (box.isEmpty()) return box;
+  return {box.min() - Eigen::Vector2i::Constant(kMargin), box.max() + Eigen::Vector2i::Constant(1)};
+}
+
+Eigen::Vector2i sizeOf(const Eigen::AlignedBox2i& box) {
+  return box.sizes() + Eigen::Vector2i::Constant(1);
+}
 
 /** One point for each cell, within reach. */
 std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector3f>& points) {
@@ -167,19 +189,11 @@ int OccupancyPyramid::cellOf(double coordinate) {
 }
 
 OccupancyPyramid::OccupancyPyramid(const std::vector<Eigen::Vector3f>& points) {
-  constexpr int kMargin = 1 << kTop;
-  Cells cells;
-  for (const Eigen::Vector3f& point : points)
-    if (point.head<2>().norm() <= static_cast<float>(kReach_m))
-      cells.emplace_back(cellOf(point.x()), cellOf(point.y()));
-  if (cells.empty()) return;
-  Eigen::Vector2i least = cells.front(), most = cells.front();
-  for (const Eigen::Vector2i& cell : cells) {
-    least = least.cwiseMin(cell);
-    most = most.cwiseMax(cell);
-  }
-  origin_ = least - Eigen::Vector2i::Constant(kMargin);
-  size_ = most - origin_ + Eigen::Vector2i::Constant(2);
+  const Cells cells = cellsWithinReach(points);
+  const Eigen::AlignedBox2i box = boxOf(cells);
+  if (box.isEmpty()) return;
+  origin_ = box.min();
+  size_ = sizeOf(box);
   const auto place = [&](int column, int row) {
     return static_cast<size_t>(row) * static_cast<size_t>(size_.x()) + static_cast<size_t>(column);
   };
@@ -200,6 +214,11 @@ OccupancyPyramid::OccupancyPyramid(const std::vector<Eigen::Vector3f>& points) {
             isSet(column + half, row + half))
           cells_[place(column, row)] |= static_cast<uint8_t>(1 << level);
   }
+}
+
+size_t OccupancyPyramid::bytesFor(const std::vector<Eigen::Vector3f>& points) {
+  const Eigen::AlignedBox2i box = boxOf(cellsWithinReach(points));
+  return box.isEmpty() ? 0 : static_cast<size_t>(sizeOf(box).prod());
 }
 
 std::vector<PlanarPlacement> alignInPlane(const std::vector<Eigen::Vector3f>& source,

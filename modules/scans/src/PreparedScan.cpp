@@ -159,14 +159,10 @@ const OccupancyPyramid& PreparedScan::occupancy() const {
 
 size_t PreparedScan::bytes() const {
   constexpr size_t kTreePerPoint = 24;  // leaves of ten points, an index each
-  // A pyramid's cells reach as far as the farthest points, which are a few times as far as most.
-  constexpr double kPyramidRadii = 4;
-  const double pyramid_cells = kPyramidRadii * radius_m_ / OccupancyPyramid::kCell_m;
-  const auto pyramid = planar_ ? static_cast<size_t>(pyramid_cells * pyramid_cells) : 0;
   const auto keypoints = planar_ ? 0 : static_cast<size_t>(feature_options_.max_keypoints);
   return size() * (2 * sizeof(Vector3f) + 2 * sizeof(uint32_t) + kTreePerPoint +
                    SurfaceSupport::kBytesPerPoint) +
-         free_space_.bytes() + pyramid +
+         free_space_.bytes() + (planar_ ? OccupancyPyramid::bytesFor(cloud_.points) : 0) +
          std::min(size(), keypoints) *
              (2 * sizeof(Vector3f) + Features::kDimensions * sizeof(float));
 }

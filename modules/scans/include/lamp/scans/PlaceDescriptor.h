@@ -3,7 +3,19 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "lamp/scans/Cloud.h"
+
 namespace lamp {
+
+/** From a key node's frame to the level one that heads the same way; z is up in odometry's frame.
+ */
+Eigen::Matrix3d levelFrame(const Pose3& odom_T_base);
+
+/** What scans show around a place, as its descriptor takes it: the first point of each voxel of 0.5
+ * m, or 0.2 m in the plane, no farther than `radius_m` beside the place and above or below it.
+ * \param scans their targets are the place's level frame. */
+std::vector<Eigen::Vector3f> surroundings(const std::vector<PlacedScan>& scans, double radius_m,
+                                          bool planar);
 
 /** How alike two places are, and how one key node is turned against the other. */
 struct PlaceMatch {

@@ -28,7 +28,8 @@ class OccupancyPyramid {
     if (column < 0 || row < 0 || column >= size_.x() || row >= size_.y()) return false;
     return (cells_[static_cast<size_t>(row * size_.x() + column)] >> level & 1) != 0;
   }
-  size_t bytes() const { return cells_.size(); }
+  /** Memory that the pyramid of these points takes. */
+  static size_t bytesFor(const std::vector<Eigen::Vector3f>& points);
 
  private:
   Eigen::Vector2i origin_ = Eigen::Vector2i::Zero(), size_ = Eigen::Vector2i::Zero();
